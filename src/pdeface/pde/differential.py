@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Curvature", "curvature", "unit_normal"]
+__all__ = ["Curvature", "curvature", "unit_normal", "write_unit_normals"]
 
 FloatArray = NDArray[np.float64]
 
@@ -29,6 +29,35 @@ def unit_normal(s_u: FloatArray, s_v: FloatArray) -> FloatArray:
     normal = np.cross(s_u, s_v)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
     return np.asarray(np.divide(normal, length, out=np.zeros_like(normal), where=length > 0))
+
+
+def write_unit_normals(
+    s_u: NDArray[np.floating],
+    s_v: NDArray[np.floating],
+    out: NDArray[np.floating],
+    scratch: NDArray[np.floating],
+) -> None:
+    """Write unit normals as :func:`unit_normal` has them, planar and without temporaries.
+
+    Args:
+        s_u, s_v, out: (3, ...) each, x, y and z apart.
+        scratch: (2, ...) overwritten.
+    """
+    product, length = scratch
+    for i, normal in enumerate(out):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        np.multiply(s_u[j], s_v[k], out=normal)
+        np.multiply(s_u[k], s_v[j], out=product)
+        normal -= product
+    np.multiply(out[0], out[0], out=length)
+    for normal in out[1:]:
+        np.multiply(normal, normal, out=product)
+        length += product
+    # A degenerate place has a product of 0; this makes its normal 0 rather than 0 / 0.
+    length += np.finfo(length.dtype).tiny
+    np.sqrt(length, out=length)
+    np.reciprocal(length, out=length)
+    out *= length
 
 
 def curvature(

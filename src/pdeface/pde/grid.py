@@ -9,18 +9,21 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from pdeface.errors import InputError
-from pdeface.pde.differential import unit_normal
-from pdeface.pde.fourier import analysis, synthesis, wave_numbers
-from pdeface.pde.joins import Continuity, Join, check_join, slopes
-from pdeface.pde.kernel import hermite
-from pdeface.pde.surface import Side, check_parameters, locate
+from pdeface.pde.fourier import wave_numbers
+from pdeface.pde.joins import Continuity, Join, check_join
+from pdeface.pde.modes import ModeProducts
+from pdeface.pde.rows import Side, locate, u_weights
+from pdeface.pde.sheet import Sheet
+from pdeface.pde.stations import choose_stations
+from pdeface.pde.surface import check_parameters
+from pdeface.pde.waves import closed_waves, mirrored_waves
 
-__all__ = ["GridEvaluator"]
+__all__ = ["GridEvaluator", "u_weights"]
 
-FloatArray = NDArray[np.float64]
+Array = NDArray[np.floating]
 
-# Weights below this are denormals in the making: they cost much and count for nothing.
-NEGLIGIBLE = 1e-12
+# Numbers of a batch that are worked on together: they stay in a processor's second cache.
+CHUNK = 250_000
 
 
 class GridEvaluator:
@@ -28,15 +31,24 @@ class GridEvaluator:
 
     The surface is linear in the data points and separates: weights along u, one small matrix
     for each distinct wave number, and Fourier waves along v. A new face costs small matrix
-    products; leading axes of ``points`` are a batch.
+    products; leading axes of ``points`` are a batch. Displacements are evaluated like points:
+    the surface of a sum is the sum of the surfaces.
+
+    Results are views (..., U, V, 3) of memory in which x, y and z lie apart, each (..., U, V).
+    Large ones are faster to write over (``out``) than to allocate anew.
 
     Args:
         shape: (K, M) of the curves.
         u: (U,) values in [0, 1].
         v: (V,) radians.
         a, modes, join, continuity: as for :class:`pdeface.pde.PDESurface`.
-        side: which side of a curve its own u means, at a crease or slit.
-        dtype: precision of the evaluation.
+        side: which side of a curve its own u means, at a crease.
+        mirrored: every curve is its own reflection in a plane z = const, as a face's are:
+            half the work. The second half of the points is not looked at; M must be even.
+        dtype: precision of the evaluation, float32 or float64.
+
+    Raises:
+        InputError: parameters, or a mesh, that no such surface has.
     """
 
     def __init__(
@@ -50,75 +62,125 @@ class GridEvaluator:
         join: Join = "smooth",
         continuity: Mapping[int, Continuity] | None = None,
         side: Side = "after",
+        mirrored: bool = False,
         dtype: DTypeLike = np.float64,
     ) -> None:
         check_parameters(a, modes)
         check_join(shape[0], join, continuity or {})
+        if mirrored and shape[1] % 2:
+            raise InputError(
+                f"mirrored curves need an even number of points, got {shape[1]}; leave mirrored out"
+            )
         self.shape = shape
-        self.u = np.asarray(u, dtype=np.float64)
-        self.v = np.asarray(v, dtype=np.float64)
+        self.u = np.atleast_1d(np.asarray(u, dtype=np.float64))
+        self.v = np.atleast_1d(np.asarray(v, dtype=np.float64))
         self.dtype = np.dtype(dtype)
-        w_of_mode = wave_numbers(shape[1], a, modes)
-        self._groups = [np.flatnonzero(w_of_mode == w) for w in np.unique(w_of_mode)]
-        distinct = np.unique(w_of_mode)
-        self._along_u = {
-            d: [u_weights(self.u, w, shape[0], join, continuity, side, d) for w in distinct]
-            for d in (0, 1)
-        }
-        self._waves = {d: synthesis(shape[1], self.v, d) for d in (0, 1)}
-        self._analysis = analysis(shape[1])
+        rows = locate(self.u, shape[0], side, continuity)
+        fastest = float(wave_numbers(shape[1], a, modes)[-1]) / (shape[0] - 1)
+        stations = choose_stations(rows, fastest, self.dtype)
+        self._waves = mirrored_waves(shape[1]) if mirrored else closed_waves(shape[1])
+        self._modes = ModeProducts(
+            shape,
+            self._waves,
+            stations.rows if stations else rows,
+            a,
+            modes,
+            join,
+            continuity,
+            self.dtype,
+        )
+        self._sheet = Sheet(self._waves, self.v, stations, self.dtype)
+        # Where every row is a curve, its points need no weights along u.
+        self._on_curves = rows.on_curves()
+        direct = self._waves.analysis.swapaxes(1, 2) @ self._waves.synthesis(self.v)
+        self._direct = direct.astype(self.dtype)
 
-    def positions(self, points: Any) -> NDArray[np.floating]:
-        """(..., U, V, 3) positions of the faces with (..., K, M, 3) data points."""
-        return self._evaluate(self._coefficients(points), 0, 0)
+    def empty(self, *batch: int) -> Array:
+        """(*batch, U, V, 3) uninitialised memory for ``out``."""
+        return _points_last(np.empty((3, *batch, len(self.u), len(self.v)), self.dtype))
 
-    def normals(self, points: Any) -> NDArray[np.floating]:
-        """(..., U, V, 3) unit outward normals."""
-        return self.positions_and_normals(points)[1]
+    def positions(self, points: Any, *, out: Array | None = None) -> Array:
+        """(..., U, V, 3) positions of the faces with (..., K, M, 3) data points.
+
+        Args:
+            points: data points, or displacements of them.
+            out: memory from :meth:`empty` to write over.
+        """
+        points = self._checked(points)
+        out = self._memory(points, out)
+        self._write(points, out, None)
+        return out
+
+    def normals(self, points: Any, *, out: Array | None = None) -> Array:
+        """(..., U, V, 3) unit outward normals; zero where the surface is degenerate."""
+        points = self._checked(points)
+        out = self._memory(points, out)
+        self._write(points, None, out)
+        return out
 
     def positions_and_normals(
-        self, points: Any
-    ) -> tuple[NDArray[np.floating], NDArray[np.floating]]:
+        self, points: Any, *, out: tuple[Array, Array] | None = None
+    ) -> tuple[Array, Array]:
         """Positions and unit outward normals, each (..., U, V, 3)."""
-        c = self._coefficients(points)
-        normals = unit_normal(self._evaluate(c, 1, 0), self._evaluate(c, 0, 1))
-        return self._evaluate(c, 0, 0), normals.astype(self.dtype)
+        points = self._checked(points)
+        positions, normals = (self._memory(points, own) for own in out or (None, None))
+        self._write(points, positions, normals)
+        return positions, normals
 
-    def _coefficients(self, points: Any) -> FloatArray:
-        points = np.asarray(points, dtype=np.float64)
-        if points.shape[-3:] != (*self.shape, 3):
+    def _checked(self, points: Any) -> Array:
+        array: Array = np.asarray(points)
+        if array.shape[-3:] != (*self.shape, 3):
             raise InputError(
                 f"this evaluator serves points of shape (..., {self.shape[0]}, {self.shape[1]}, "
-                f"3), got {points.shape}; build one for the other level"
+                f"3), got {array.shape}; build one for the other level"
             )
-        return np.asarray(np.einsum("cnm,...kmx->...cknx", self._analysis, points))
+        return array
 
-    def _evaluate(self, coefficients: FloatArray, du: int, dv: int) -> NDArray[np.floating]:
-        along = [
-            np.einsum("uk,...ckgx->...cugx", weights, coefficients[..., group, :])
-            for weights, group in zip(self._along_u[du], self._groups, strict=True)
+    def _memory(self, points: Array, out: Array | None) -> Array:
+        batch = points.shape[:-3]
+        if out is None:
+            return self.empty(*batch)
+        shape = (*batch, len(self.u), len(self.v), 3)
+        if out.shape != shape or out.dtype != self.dtype or not _planar(out).flags.c_contiguous:
+            raise InputError(
+                f"out must be planar memory of shape {shape} and type {self.dtype}, got "
+                f"{out.shape} and {out.dtype}; use what empty() of this evaluator gives"
+            )
+        return out
+
+    def _write(self, points: Array, positions: Array | None, normals: Array | None) -> None:
+        """Write what is wanted, some faces of the batch at a time."""
+        faces = points.reshape(-1, *self.shape, 3)
+        grid = (len(self.u), len(self.v))
+        wanted = [
+            None if out is None else _planar(out).reshape(3, -1, *grid)
+            for out in (positions, normals)
         ]
-        modes = np.concatenate(along, axis=-2)
-        return np.einsum("cvn,...cunx->...uvx", self._waves[dv], modes).astype(self.dtype)
+        step = max(1, CHUNK // (3 * (grid[0] * grid[1] + self.shape[0] * self.shape[1])))
+        for start in range(0, len(faces), step):
+            some = slice(start, start + step)
+            self._write_some(
+                faces[some], *(None if out is None else out[:, some] for out in wanted)
+            )
+
+    def _write_some(self, points: Array, positions: Array | None, normals: Array | None) -> None:
+        if positions is not None and self._on_curves is not None:
+            samples = self._waves.samples(points[:, self._on_curves], self.dtype)
+            np.matmul(samples, self._direct, out=positions.reshape(3, -1, len(self.v)))
+            positions = None
+        if positions is None and normals is None:
+            return
+        coefficients = self._modes.coefficients(self._waves.samples(points, self.dtype))
+        modes = self._modes.on_rows(coefficients)
+        if positions is not None:
+            self._sheet.write_positions(modes, positions)
+        if normals is not None:
+            self._sheet.write_normals(modes, self._modes.on_rows(coefficients, 1), normals)
 
 
-def u_weights(
-    u: FloatArray,
-    w: float,
-    count: int,
-    join: Join = "smooth",
-    continuity: Mapping[int, Continuity] | None = None,
-    side: Side = "after",
-    derivative: int = 0,
-) -> FloatArray:
-    """(U, K) weights of the K curves' positions in one mode of wave number w at each u."""
-    interval, t = locate(u, count - 1, side)
-    at_ends = hermite(w / (count - 1), t, derivative)
-    of_slopes = slopes(w, count, join, continuity)[interval]
-    weights = np.einsum("ue,uek->uk", at_ends[:, 2:], of_slopes)
-    row = np.arange(len(u))
-    weights[row, interval] += at_ends[:, 0]
-    weights[row, interval + 1] += at_ends[:, 1]
-    weights *= float(count - 1) ** derivative
-    weights[np.abs(weights) < NEGLIGIBLE] = 0.0
-    return weights
+def _points_last(planar: Array) -> Array:
+    return planar.transpose(*range(1, planar.ndim), 0)
+
+
+def _planar(points: Array) -> Array:
+    return points.transpose(-1, *range(points.ndim - 1))

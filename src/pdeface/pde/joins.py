@@ -14,13 +14,15 @@ cubic spline). A curve can be taken out of that continuity: see :data:`Continuit
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from itertools import pairwise
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
-from pdeface.pde.kernel import cardinals, hermite
+from pdeface.pde.kernel import LARGEST_OMEGA, cardinals, hermite
 
 __all__ = ["Continuity", "Join", "check_join", "slopes"]
 
@@ -55,10 +57,14 @@ def check_join(count: int, join: Join, continuity: Mapping[int, Continuity]) -> 
         raise InputError("continuity can be chosen for the smooth join only; use join='smooth'")
     for curve, kind in continuity.items():
         if kind not in get_args(Continuity):
-            raise InputError(f"continuity must be 'C2', 'crease' or 'slit', got {kind!r}")
-        if not 1 <= curve <= count - 2:
             raise InputError(
-                f"continuity belongs to inner curves 1 to {count - 2}, got curve {curve}"
+                f"continuity at a curve must be 'C2', 'crease' or 'slit', got {kind!r} at "
+                f"curve {curve!r}"
+            )
+        if not isinstance(curve, int | np.integer) or not 1 <= curve <= count - 2:
+            raise InputError(
+                f"continuity can be chosen at the inner curves, 1 to {count - 2} of {count}, "
+                f"got curve {curve!r}; leave it out"
             )
 
 
@@ -74,36 +80,53 @@ def slopes(
         continuity: what departs from C2, by curve; smooth join only.
 
     Returns:
-        (K - 1, 2, K) weights of the slopes d/dt at t = 0 and t = 1 of each interval, with t
-        running from 0 to 1 over it.
+        (K - 1, 2, K) weights, read-only, of the slopes d/dt at t = 0 and t = 1 of each
+        interval, with t running from 0 to 1 over it.
+
+    Raises:
+        InputError: a patch in which the solution exceeds every floating-point number.
     """
-    continuity = continuity or {}
-    omega = w / (count - 1)
-    result = np.zeros((count - 1, 2, count))
     if join == "patchwise":
-        for first in range(0, count - 1, 3):
-            result[first : first + 3, :, first : first + 4] = _patch_slopes(omega)
-        return result
-    for first, last in _pieces(count, continuity):
-        if last > first:
-            at_curves = _spline_slopes(omega, last - first + 1)
-            both_ends = np.stack([at_curves[:-1], at_curves[1:]], axis=1)
-            result[first:last, :, first : last + 1] = both_ends
+        return _patchwise(w, count)
+    return _smooth(w, count, tuple(_pieces(count, continuity or {})))
+
+
+@lru_cache(maxsize=256)
+def _patchwise(w: float, count: int) -> FloatArray:
+    """Four consecutive curves bound each patch, whose first and last its neighbours share."""
+    omega = 3.0 * w / (count - 1)
+    if omega > LARGEST_OMEGA:
+        raise InputError(
+            f"a patch must have a wave number of at most {LARGEST_OMEGA:g}, got {omega:g} with "
+            f"{count} curves; lower a or modes, or use join='smooth'"
+        )
+    at_curves = cardinals(omega, PATCH, np.arange(4) / 3.0, derivative=1) / 3.0
+    result = np.zeros((count - 1, 2, count))
+    for first in range(0, count - 1, 3):
+        result[first : first + 3, 0, first : first + 4] = at_curves[:-1]
+        result[first : first + 3, 1, first : first + 4] = at_curves[1:]
+    result.setflags(write=False)
     return result
 
 
-def _patch_slopes(omega: float) -> FloatArray:
-    """(3, 2, 4) slopes inside one patch through four position curves."""
-    at_curves = cardinals(3.0 * omega, PATCH, np.arange(4) / 3.0, derivative=1) / 3.0
-    return np.stack([at_curves[:-1], at_curves[1:]], axis=1)
+@lru_cache(maxsize=256)
+def _smooth(w: float, count: int, pieces: tuple[tuple[int, int], ...]) -> FloatArray:
+    """A spline through the curves of each piece."""
+    result = np.zeros((count - 1, 2, count))
+    for first, last in pieces:
+        at_curves = _spline_slopes(w / (count - 1), last - first + 1)
+        result[first:last, 0, first : last + 1] = at_curves[:-1]
+        result[first:last, 1, first : last + 1] = at_curves[1:]
+    result.setflags(write=False)
+    return result
 
 
 def _pieces(count: int, continuity: Mapping[int, Continuity]) -> Iterator[tuple[int, int]]:
     """First and last curve of every spline."""
     breaks = {curve for curve, kind in continuity.items() if kind != "C2"}
     breaks |= {curve + 1 for curve, kind in continuity.items() if kind == "slit"}
-    ends = [0, *sorted(breaks - {0, count - 1}), count - 1]
-    yield from zip(ends[:-1], ends[1:], strict=True)
+    ends = [0, *sorted(breaks - {count - 1}), count - 1]
+    yield from pairwise(ends)
 
 
 def _spline_slopes(omega: float, count: int) -> FloatArray:
@@ -119,4 +142,4 @@ def _spline_slopes(omega: float, count: int) -> FloatArray:
     # The two ends have one side only, where y'' = w^2 y.
     of_positions[0, 0] -= omega**2
     of_positions[-1, -1] += omega**2
-    return np.linalg.solve(of_slopes, of_positions)
+    return np.asarray(np.linalg.solve(of_slopes, of_positions), dtype=np.float64)

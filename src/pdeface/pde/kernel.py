@@ -11,16 +11,20 @@ Here ``t`` runs over [0, 1] and ``omega`` is w times the length of the interval.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from math import factorial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["basis", "cardinals", "hermite"]
+__all__ = ["LARGEST_OMEGA", "basis", "cardinals", "hermite"]
 
 FloatArray = NDArray[np.float64]
 Condition = tuple[float, int]
+
+# Up to here no exponential of the kernel underflows or overflows.
+LARGEST_OMEGA = 700.0
 
 # Below this the power series has converged to the last bit with SERIES_TERMS terms; above it
 # the decaying exponentials are far enough from dependent.
@@ -48,18 +52,18 @@ def basis(omega: float, t: Any, derivative: int = 0) -> FloatArray:
 
 
 def _series(omega: float, t: FloatArray, order: int) -> FloatArray:
-    """``sum_m (m + 1) omega^{2m} t^{2m + order} / (2m + order)!``.
+    """``sum_m (m + 1) omega^{2m} t^{2m + order} / (2m + order)!`` over powers of 0 or more.
 
     For order 3 this is the solution whose first three derivatives vanish at 0 and whose third
     is 1 there; each lower order is the derivative of the one above. As omega tends to 0 the
     four tend to 1, t, t^2/2, t^3/6, the cubic of equation (3).
     """
+    first = max(0, (1 - order) // 2)
+    square = t * t
     total = np.zeros_like(t)
-    for m in range(SERIES_TERMS):
-        power = 2 * m + order
-        if power >= 0:
-            total += (m + 1) * omega ** (2 * m) / factorial(power) * t**power
-    return total
+    for m in reversed(range(first, first + SERIES_TERMS)):
+        total = total * square + (m + 1) * omega ** (2 * m) / factorial(2 * m + order)
+    return np.asarray(total * t ** (2 * first + order))
 
 
 def _decaying(omega: float, t: FloatArray, derivative: int) -> FloatArray:
@@ -88,16 +92,24 @@ def cardinals(
     Returns:
         (T, 4) weights: the solution is ``weights @ prescribed``.
     """
-    system = np.stack([basis(omega, np.float64(at), order) for at, order in conditions])
+    t = np.asarray(t, dtype=np.float64)
+    weights = np.asarray(basis(omega, t, derivative) @ _solved(float(omega), tuple(conditions)))
+    for index, (at, order) in enumerate(conditions):
+        if order == derivative:  # met by definition: keep rounding out of it
+            weights[t == at] = np.eye(4)[index]
+    return weights
+
+
+@lru_cache(maxsize=4096)
+def _solved(omega: float, conditions: tuple[Condition, ...]) -> FloatArray:
+    """(4, 4) coefficients in the basis, one column for each condition met alone."""
+    system = np.stack([basis(omega, at, order) for at, order in conditions])
     # Inner conditions see both ends through exponentially small numbers; scaling each row
     # by its largest entry lets the factorisation keep their relative accuracy.
     scale = 1.0 / np.abs(system).max(axis=1)
     coefficients = np.linalg.solve(system * scale[:, None], np.diag(scale))
-    weights = np.asarray(basis(omega, t, derivative) @ coefficients)
-    for index, (at, order) in enumerate(conditions):
-        if order == derivative:  # met by definition: keep rounding out of it
-            weights[np.asarray(t) == at] = np.eye(4)[index]
-    return weights
+    coefficients.setflags(write=False)
+    return coefficients
 
 
 def hermite(omega: float, t: Any, derivative: int = 0) -> FloatArray:

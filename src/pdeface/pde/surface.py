@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,16 +13,14 @@ from pdeface.pde import differential
 from pdeface.pde.fourier import analysis, synthesis, wave_numbers
 from pdeface.pde.joins import Continuity, Join, check_join, slopes
 from pdeface.pde.kernel import hermite
+from pdeface.pde.rows import Side, locate
 
 __all__ = ["PDESurface", "Side", "check_parameters"]
 
 FloatArray = NDArray[np.float64]
 
-Side = Literal["before", "after"]
-"""From which side a curve's own u is approached, where a crease or a slit makes a difference."""
-
 # Scattered points are evaluated in slices, so that memory does not grow with their number.
-SLICE = 8192
+SLICE = 4096
 
 
 def check_parameters(a: float, modes: int) -> None:
@@ -58,8 +56,8 @@ class PDESurface:
         >>> v = (np.arange(8) + 0.5) * 2 * np.pi / 8
         >>> rings = [np.stack([np.cos(v), 0 * v + h, np.sin(v)], -1) for h in (0, 1, 2, 3)]
         >>> cylinder = PDESurface(rings)
-        >>> np.round(cylinder(0.5, 0.0), 6)
-        array([1. , 1.5, 0. ])
+        >>> np.round(cylinder(1 / 3, np.pi / 2), 6)
+        array([0., 1., 1.])
     """
 
     def __init__(
@@ -73,17 +71,13 @@ class PDESurface:
     ) -> None:
         points = _checked(points, "points")
         check_join(len(points), join, continuity or {})
-        self._prepare(points, a, modes)
+        self._prepare(points, a, modes, continuity or {})
         for w, group in self._groups:
             weights = slopes(w, len(points), join, continuity)
-            self._slopes[..., group, :] = np.einsum(
-                "ies,csgx->ecigx", weights, self._values[:, :, group]
-            )
+            self._ends[:, 2:, :, group] = np.tensordot(weights, self._values[:, :, group], axes=1)
 
     @classmethod
-    def blend(
-        cls, points: Any, derivatives: Any, *, a: float = 1.0, modes: int = 6
-    ) -> PDESurface:
+    def blend(cls, points: Any, derivatives: Any, *, a: float = 1.0, modes: int = 6) -> PDESurface:
         """Bloor and Wilson's boundary conditions: two curves of position, two of derivative.
 
         Args:
@@ -99,20 +93,24 @@ class PDESurface:
                 f"got {points.shape} and {derivatives.shape}"
             )
         surface = cls.__new__(cls)
-        surface._prepare(points, a, modes)
-        waves = analysis(points.shape[1])
-        surface._slopes[:, :, 0] = np.einsum("cnm,emx->ecnx", waves, derivatives)
+        surface._prepare(points, a, modes, {})
+        surface._ends[0, 2:] = _coefficients(derivatives)
         return surface
 
-    def _prepare(self, points: FloatArray, a: float, modes: int) -> None:
+    def _prepare(
+        self, points: FloatArray, a: float, modes: int, continuity: Mapping[int, Continuity]
+    ) -> None:
         """Take the Fourier coefficients of the curves; leave the slopes to the join."""
         check_parameters(a, modes)
-        self._count = points.shape[1]
-        waves = analysis(self._count)
-        # Indices: cosine or sine, curve, mode, coordinate; end of the interval before them.
-        self._values = np.einsum("cnm,kmx->cknx", waves, points)
-        self._slopes = np.zeros((2, 2, len(points) - 1, *self._values.shape[2:]))
-        w_of_mode = wave_numbers(self._count, a, modes)
+        self._shape = points.shape[:2]
+        self._continuity = dict(continuity)
+        # Indices: curve; cosine or sine, mode, coordinate.
+        self._values = _coefficients(points)
+        # Indices: interval; value and value, slope and slope at its two ends; as before.
+        self._ends = np.zeros((len(points) - 1, 4, *self._values.shape[1:]))
+        self._ends[:, 0] = self._values[:-1]
+        self._ends[:, 1] = self._values[1:]
+        w_of_mode = wave_numbers(points.shape[1], a, modes)
         self._groups = [(float(w), np.flatnonzero(w_of_mode == w)) for w in np.unique(w_of_mode)]
 
     def __call__(self, u: Any, v: Any, *, side: Side = "after") -> FloatArray:
@@ -121,7 +119,7 @@ class PDESurface:
         Args:
             u: values in [0, 1], any shape that broadcasts with v.
             v: radians, any value (period 2 pi).
-            side: which side of a curve its own u means, at a crease or slit.
+            side: which side of a curve its own u means, at a crease.
 
         Returns:
             (..., 3) positions.
@@ -139,32 +137,30 @@ class PDESurface:
         if du < 0 or dv < 0:
             raise InputError(f"orders of derivative must be 0 or more, got du={du}, dv={dv}")
         u, v = np.broadcast_arrays(_finite(u, "u"), _finite(v, "v"))
-        if u.size and (u.min() < 0.0 or u.max() > 1.0):
-            raise InputError(f"u must lie in [0, 1], got {u.min():g} to {u.max():g}")
+        interval, t = locate(u.ravel(), self._shape[0], side, self._continuity)
+        flat_v = v.ravel()
         result = np.empty((u.size, 3))
-        flat_u, flat_v = u.ravel(), v.ravel()
         for start in range(0, u.size, SLICE):
             part = slice(start, start + SLICE)
-            result[part] = self._evaluate(flat_u[part], flat_v[part], du, dv, side)
+            result[part] = self._evaluate(interval[part], t[part], flat_v[part], du, dv)
         return result.reshape(*u.shape, 3)
 
     def _evaluate(
-        self, u: FloatArray, v: FloatArray, du: int, dv: int, side: Side
+        self, interval: NDArray[np.intp], t: FloatArray, v: FloatArray, du: int, dv: int
     ) -> FloatArray:
-        intervals = self._slopes.shape[2]
-        interval, t = locate(u, intervals, side)
-        waves = synthesis(self._count, v, dv)
-        result = np.zeros((u.size, 3))
+        """One weight for each end, cosine or sine and mode; then one product an interval."""
+        curves, count = self._shape
+        waves = synthesis(count, v, dv).transpose(1, 0, 2)
+        at_ends = np.empty((len(t), 4, 1, waves.shape[2]))
         for w, group in self._groups:
-            weights = hermite(w / intervals, t, du) * float(intervals) ** du
-            ends = (
-                self._values[:, interval][:, :, group],
-                self._values[:, interval + 1][:, :, group],
-                self._slopes[0][:, interval][:, :, group],
-                self._slopes[1][:, interval][:, :, group],
-            )
-            for weight, end in zip(weights.T, ends, strict=True):
-                result += weight[:, None] * np.einsum("cpg,cpgx->px", waves[:, :, group], end)
+            weights = hermite(w / (curves - 1), t, du) * float(curves - 1) ** du
+            at_ends[:, :, 0, group] = weights[..., None]
+        features = (at_ends * waves[:, None]).reshape(len(t), -1)
+        ends = self._ends.reshape(curves - 1, -1, 3)
+        result = np.empty((len(t), 3))
+        for each in np.unique(interval):
+            inside = interval == each
+            result[inside] = features[inside] @ ends[each]
         return result
 
     def normal(self, u: Any, v: Any, *, side: Side = "after") -> FloatArray:
@@ -180,15 +176,11 @@ class PDESurface:
         )
 
 
-def locate(u: FloatArray, intervals: int, side: Side) -> tuple[NDArray[np.intp], FloatArray]:
-    """Interval of each u and the position in [0, 1] within it."""
-    scaled = u * intervals
-    nearest = np.rint(scaled)
-    # u = k / (K - 1) rounds to either side of curve k; it shall mean the curve.
-    scaled = np.where(np.abs(scaled - nearest) < 1e-12 * intervals, nearest, scaled)
-    index = np.ceil(scaled) - 1 if side == "before" else np.floor(scaled)
-    interval = np.clip(index, 0, intervals - 1).astype(np.intp)
-    return interval, scaled - interval
+def _coefficients(curves: FloatArray) -> FloatArray:
+    """(curves, 2, modes, 3) cosine and sine coefficients of (curves, M, 3) points."""
+    waves = analysis(curves.shape[1])
+    flat = waves.reshape(-1, curves.shape[1]) @ curves
+    return np.asarray(flat.reshape(len(curves), *waves.shape[:2], 3))
 
 
 def _finite(values: Any, name: str) -> FloatArray:

@@ -1,12 +1,12 @@
 """Where a picture is taken from: views by name or angle, and a camera framed on the face.
 
-The camera turns about the vertical axis through the middle of the face, always at the same
-distance, so that pictures of one face from several sides have one scale and stand on one line.
+The camera turns about a vertical axis in the middle of the face. From everywhere in front of it
+the distance is the same, so that pictures of one face from several sides have one scale.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -123,32 +123,47 @@ def parse_view(view: View) -> tuple[float, float]:
 
 
 def frame(points: FloatArray, view: View = "front", aspect: float = 0.8) -> Camera:
-    """The camera that shows ``points`` from ``view``, the same distance off for every azimuth.
+    """The camera that shows ``points`` from ``view``, equally far off for all views from in front.
 
     Args:
         points: (..., 3) what must be in the picture, metres.
         view: see :func:`parse_view`.
         aspect: width of the picture over its height.
     """
-    azimuth, elevation = np.radians(parse_view(view))
+    azimuth, elevation = parse_view(view)
     points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
-    target = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    right = np.array([np.cos(azimuth), 0.0, -np.sin(azimuth)])
-    backward = np.array(
-        [
-            np.sin(azimuth) * np.cos(elevation),
-            np.sin(elevation),
-            np.cos(azimuth) * np.cos(elevation),
-        ]
-    )
-    distance = _distance(points - target, aspect)
-    return Camera(target + distance * backward, target, right, np.cross(backward, right))
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    right, up, backward = axes = _axes(azimuth, elevation)
+    seen = (points - middle) @ np.stack([right, up], axis=1)
+    across, upwards = 0.5 * (seen.min(axis=0) + seen.max(axis=0))
+    target = middle + across * right + upwards * up
+    reach = 180.0 if backward[2] < -1e-9 else 90.0
+    others = [_axes(angle, 0.0) for angle in np.arange(-reach, reach + 1.0, 15.0)]
+    distance = max(_distance(points - middle, aspect, *seen_from) for seen_from in [axes, *others])
+    return _centred(Camera(target + distance * backward, target, right, up), points)
 
 
-def _distance(offsets: FloatArray, aspect: float) -> float:
-    """How far off the camera must stand so that the points fit, however it turns."""
-    reach = np.hypot(offsets[:, 0], offsets[:, 2])
+def _centred(camera: Camera, points: FloatArray) -> Camera:
+    """The camera moved sideways until the points are as far from the left as from the right."""
+    x = camera.project(points, (0, 2))[0][..., 0]
+    step = 0.5 * (x.min() + x.max()) * camera.pixel_size(2) * camera.right
+    return replace(camera, position=camera.position + step, target=camera.target + step)
+
+
+def _axes(azimuth: float, elevation: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Unit vectors of a picture from these angles: right, up, and towards the camera."""
+    c, s = np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))
+    e, h = np.cos(np.radians(elevation)), np.sin(np.radians(elevation))
+    right, backward = np.array([c, 0.0, -s]), np.array([s * e, h, c * e])
+    return right, np.cross(backward, right), backward
+
+
+def _distance(
+    offsets: FloatArray, aspect: float, right: FloatArray, up: FloatArray, backward: FloatArray
+) -> float:
+    """How far off a camera with these axes must stand for all points to be in its picture."""
     slope = MARGIN * np.tan(np.radians(FIELD_OF_VIEW) / 2.0)
-    tall = reach + np.abs(offsets[:, 1]) / slope
-    wide = reach + reach / (slope * aspect)
-    return float(max(tall.max(), wide.max()))
+    near, across, upwards = offsets @ backward, offsets @ right, offsets @ up
+    across = across - 0.5 * (across.min() + across.max())
+    upwards = upwards - 0.5 * (upwards.min() + upwards.max())
+    return float(np.max(near + np.maximum(np.abs(across) / aspect, np.abs(upwards)) / slope))

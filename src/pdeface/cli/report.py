@@ -1,0 +1,63 @@
+"""What a command tells while it works: progress on stderr, files written on stdout."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import typer
+
+__all__ = ["Report"]
+
+
+class Report:
+    """Progress and results of one command.
+
+    Args:
+        quiet: tell nothing.
+    """
+
+    def __init__(self, quiet: bool = False) -> None:
+        self._quiet = quiet
+
+    @contextmanager
+    def step(self, what: str) -> Iterator[Callable[[str], None]]:
+        """Show ``what`` with a spinner for as long as the block runs, if a person may see it.
+
+        Yields:
+            A function that changes the text shown.
+        """
+        if self._quiet:
+            yield _nothing
+            return
+        from rich.console import Console
+        from rich.text import Text
+
+        console = Console(stderr=True)
+        if not console.is_terminal:  # a spinner would fill a log
+            yield _nothing
+            return
+        with console.status(Text(what)) as status:
+            yield lambda text: status.update(Text(text))
+
+    def wrote(self, path: Path) -> None:
+        """Tell that a file was written, and how large it is."""
+        if not self._quiet:
+            typer.echo(f"wrote {path} ({size_in_words(path.stat().st_size)})")
+
+
+def size_in_words(count: int) -> str:
+    """``4.2 kB`` for 4200 bytes."""
+    if count < 1000:
+        return f"{count} B"
+    value = float(count)
+    for unit in ("kB", "MB", "GB"):
+        value /= 1000.0
+        if value < 999.5 or unit == "GB":
+            break
+    return f"{value:.3g} {unit}"
+
+
+def _nothing(text: str) -> None:
+    pass

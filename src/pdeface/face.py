@@ -1,0 +1,268 @@
+"""The face as a value: boundary curves, how they make a surface, and a texture."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface import images
+from pdeface.archive import FaceRecord, pack, unpack
+from pdeface.curves import BoundaryCurves
+from pdeface.errors import FileFormatError, InputError
+from pdeface.files import PathLike, atomic_write
+from pdeface.pde import GridEvaluator, Join, PDESurface
+from pdeface.pde.surface import check_parameters
+from pdeface.uvmesh import FaceMesh, UVMesh
+
+__all__ = ["Face", "load"]
+
+SUFFIX = ".pdeface"
+_LARGEST_FILE = 512 << 20
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A face: immutable, compared by value, saved and loaded without loss.
+
+    Attributes:
+        curves: the closed boundary curves, metres.
+        texture: (H, W, 3 or 4) uint8, read-only, or None. Texel [0, 0] lies at u = 0, v = 0: the
+            forehead on the subject's right, which is the left of an ordinary photo.
+        a: relative rate of smoothing between u and v, 1 or more (equation 1 of the paper).
+        modes: N, the number of Fourier modes solved one by one (equation 6).
+        name: what to call the face in files and pictures.
+        notes: free text by topic, such as ``{"licence": "CC0", "source": "..."}``.
+
+    Raises:
+        InputError: parameters, pixels or texts that no face has.
+
+    Example:
+        >>> import numpy as np
+        >>> face = Face(BoundaryCurves(np.random.default_rng(0).normal(size=(4, 8, 3))))
+        >>> face.with_name("Ada").mesh(10, 12).vertices.shape
+        (120, 3)
+    """
+
+    curves: BoundaryCurves
+    texture: NDArray[np.uint8] | None = None
+    a: float = 1.0
+    modes: int = 6
+    name: str = ""
+    notes: Mapping[str, str] = field(default_factory=dict)
+    # The texture as a PNG or JPEG file, when it came as one: not to be compressed twice.
+    _encoded: bytes | None = field(default=None, init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.curves, BoundaryCurves):
+            raise InputError(
+                f"a face needs BoundaryCurves, got {type(self.curves).__name__}; "
+                "wrap the points: BoundaryCurves(points)"
+            )
+        check_parameters(self.a, self.modes)
+        _check_texts([self.name, *self.notes.keys(), *self.notes.values()])
+        fields = {"a": float(self.a), "modes": int(self.modes)}
+        texture = None if self.texture is None else _frozen(images.check_pixels(self.texture))
+        notes = MappingProxyType(dict(self.notes))
+        for key, value in {**fields, "texture": texture, "notes": notes}.items():
+            object.__setattr__(self, key, value)
+
+    def surface(self, join: Join = "smooth") -> PDESurface:
+        """The PDE surface through the curves; u in [0, 1], v in radians with period 2 pi."""
+        return PDESurface(self.curves.points, a=self.a, modes=self.modes, join=join)
+
+    def mesh(
+        self,
+        rows: int = 28,
+        columns: int = 41,
+        *,
+        join: Join = "smooth",
+        extent: Literal["face", "loop"] = "face",
+    ) -> FaceMesh:
+        """The surface sampled on a uv mesh, with the analytic normals.
+
+        Args:
+            rows, columns: samples along u and v.
+            join: ``"smooth"`` (C2) or ``"patchwise"`` (the paper's).
+            extent: ``"face"`` for 0 <= v <= pi, ``"loop"`` for the closed curves.
+        """
+        grid = UVMesh(rows, columns, extent)
+        evaluator = _evaluator(self.curves.shape, grid, self.a, self.modes, join)
+        vertices, normals = evaluator.positions_and_normals(self.curves.points)
+        return FaceMesh(
+            vertices=vertices.reshape(-1, 3).astype(np.float64, copy=False),
+            normals=normals.reshape(-1, 3).astype(np.float64, copy=False),
+            texcoords=grid.texcoords,
+            quads=grid.quads,
+            triangles=grid.triangles,
+            grid=(rows, columns),
+        )
+
+    def with_curves(self, curves: BoundaryCurves) -> Face:
+        """The same face through other curves."""
+        return self._changed(curves=curves)
+
+    def with_texture(self, image: Any) -> Face:
+        """The same face with another texture.
+
+        Args:
+            image: (H, W, 3 or 4) uint8; or the bytes of a PNG or JPEG file, which are then kept
+                and written as they are (turned by no EXIF); or None for no texture.
+
+        Raises:
+            InputError: not such an image; FileFormatError if its bytes are damaged.
+        """
+        if isinstance(image, bytes):
+            changed = replace(self, texture=images.decode(image))
+            object.__setattr__(changed, "_encoded", image)
+            return changed
+        return replace(self, texture=image)
+
+    def with_name(self, name: str) -> Face:
+        """The same face under another name."""
+        return self._changed(name=name)
+
+    def with_notes(self, notes: Mapping[str, str]) -> Face:
+        """The same face with these notes added to its own."""
+        return self._changed(notes={**self.notes, **notes})
+
+    def texture_file(self, *, compact: bool = False) -> bytes | None:
+        """The texture as the bytes of a picture file, or None.
+
+        A PNG, or the JPEG file that it came from. ``compact``, which viewers like, makes a
+        JPEG of other textures as well where that is smaller.
+        """
+        if self.texture is None:
+            return None
+        kept = self._encoded
+        if kept is not None and (not compact or images.media_type(kept) == "image/jpeg"):
+            return kept
+        return (images.encode_compact if compact else images.encode_png)(self.texture)
+
+    def save(self, path: PathLike) -> None:
+        """Write a ``.pdeface`` file (docs/file-format.md), all of it or nothing.
+
+        Raises:
+            InputError: another suffix, or a place that cannot be written.
+        """
+        if Path(path).suffix.lower() != SUFFIX:
+            raise InputError(
+                f"a face is saved as {SUFFIX}, got {Path(path).name!r}; "
+                "use pdeface.export for other formats"
+            )
+        record = FaceRecord(
+            self.curves, self.a, self.modes, self.name, self.notes, self.texture_file()
+        )
+        atomic_write(path, pack(record))
+
+    def _changed(self, **changes: Any) -> Face:
+        changed = replace(self, **changes)
+        object.__setattr__(changed, "_encoded", self._encoded)
+        return changed
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Face):
+            return NotImplemented
+        if (self.texture is None) != (other.texture is None):
+            return False
+        mine = (self.curves, self.a, self.modes, self.name, dict(self.notes))
+        theirs = (other.curves, other.a, other.modes, other.name, dict(other.notes))
+        if mine != theirs or self.texture is None or other.texture is None:
+            return mine == theirs
+        return np.array_equal(self.texture, other.texture)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Through the constructor: a pickled array comes back writable, and views do not pickle.
+        curves = (self.curves.points, self.curves.mirror_z)
+        rest = (self.texture, self.a, self.modes, self.name, dict(self.notes), self._encoded)
+        return _restored, (curves, *rest)
+
+    def __repr__(self) -> str:
+        texture = "no texture"
+        if self.texture is not None:
+            texture = f"texture {self.texture.shape[1]} x {self.texture.shape[0]}"
+        name = f"{self.name!r}, " if self.name else ""
+        return f"Face({name}{self.curves!r}, {texture})"
+
+
+def load(path: PathLike) -> Face:
+    """The face in a ``.pdeface`` file.
+
+    Raises:
+        InputError: no file there, or one that cannot be read.
+        FileFormatError: the file is damaged, newer than this library, or something else.
+        MissingExtraError: it has a texture and Pillow is not installed.
+    """
+    data = _read(path)
+    try:
+        record = unpack(data)
+        face = Face(record.curves, None, record.a, record.modes, record.name, record.notes)
+        return face if record.texture is None else face.with_texture(record.texture)
+    except InputError as error:
+        raise FileFormatError(f"{path}: {error}") from error
+
+
+def _read(path: PathLike) -> bytes:
+    try:
+        size = os.stat(path).st_size
+        data = Path(path).read_bytes() if size <= _LARGEST_FILE else b""
+    except FileNotFoundError as error:
+        raise InputError(f"expected a {SUFFIX} file, found none at {path}; check it") from error
+    except IsADirectoryError as error:
+        raise InputError(f"expected a {SUFFIX} file, got the folder {path}; name one") from error
+    except (OSError, ValueError) as error:
+        raise InputError(f"cannot read {path!r}: {error}; check its name and rights") from error
+    if size > _LARGEST_FILE:
+        raise FileFormatError(
+            f"expected a {SUFFIX} file of at most {_LARGEST_FILE >> 20} MiB, "
+            f"{path} has {size >> 20} MiB; choose another"
+        )
+    return data
+
+
+def _check_texts(texts: list[str]) -> None:
+    for text in texts:
+        if not isinstance(text, str):
+            raise InputError(
+                f"the name and the notes of a face are texts, got {type(text).__name__}; "
+                "convert it to str"
+            )
+        if any("\ud800" <= c <= "\udfff" for c in text):
+            raise InputError(f"{text!r} holds half a character; decode it as UTF-8")
+
+
+@lru_cache(maxsize=16)
+def _evaluator(
+    shape: tuple[int, int], grid: UVMesh, a: float, modes: int, join: Join
+) -> GridEvaluator:
+    return GridEvaluator(shape, grid.u, grid.v, a=a, modes=modes, join=join)
+
+
+def _frozen(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The pixels read-only; copied unless nobody else can write them."""
+    if not pixels.flags.writeable and pixels.base is None:
+        return pixels
+    pixels = np.array(pixels, order="C")
+    pixels.setflags(write=False)
+    return pixels
+
+
+def _restored(
+    curves: tuple[Any, float],
+    texture: NDArray[np.uint8] | None,
+    a: float,
+    modes: int,
+    name: str,
+    notes: Mapping[str, str],
+    encoded: bytes | None,
+) -> Face:
+    face = Face(BoundaryCurves(*curves), texture, a, modes, name, notes)
+    object.__setattr__(face, "_encoded", encoded)
+    return face

@@ -1,0 +1,96 @@
+"""glTF 2.0, as one binary file (GLB) or as JSON with everything inside it (.gltf)."""
+
+from __future__ import annotations
+
+from pdeface.face import Face
+from pdeface.files import PathLike, atomic_write
+from pdeface.formats._gltf_builder import GltfBuilder
+from pdeface.formats._sample import Sample
+from pdeface.formats._shared import GENERATOR, ROUGHNESS, SKIN, linear
+from pdeface.images import has_holes, media_type
+
+__all__ = ["build_gltf", "write_glb", "write_gltf"]
+
+_LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP_TO_EDGE = 9729, 9987, 33071
+
+
+def write_glb(face: Face, surface: Sample, path: PathLike) -> None:
+    """Write a GLB with its texture embedded.
+
+    Raises:
+        InputError: more than 4 GiB, or a place that cannot be written.
+    """
+    atomic_write(path, build_gltf(face, surface).to_glb())
+
+
+def write_gltf(face: Face, surface: Sample, path: PathLike) -> None:
+    """Write a .gltf with buffer and texture embedded.
+
+    Raises:
+        InputError: a place that cannot be written.
+    """
+    atomic_write(path, build_gltf(face, surface).to_gltf())
+
+
+def build_gltf(face: Face, surface: Sample) -> GltfBuilder:
+    """The document: one scene, one node, one mesh of one primitive, one material."""
+    document = GltfBuilder(GENERATOR)
+    if "copyright" in face.notes:
+        document.asset["copyright"] = face.notes["copyright"]
+    name = face.name or "face"
+    primitive = _add_primitive(document, surface, _add_material(document, face))
+    mesh = document.add("meshes", name=name, primitives=[primitive])
+    node = document.add("nodes", name=name, mesh=mesh)
+    document.add("scenes", nodes=[node])
+    return document
+
+
+def _add_primitive(
+    document: GltfBuilder, surface: Sample, material: int
+) -> dict[str, int | dict[str, int]]:
+    return {
+        "attributes": {
+            "POSITION": document.add_accessor(surface.vertices, "vertices", bounds=True),
+            "NORMAL": document.add_accessor(surface.normals, "vertices"),
+            "TEXCOORD_0": document.add_accessor(surface.texcoords, "vertices"),
+        },
+        "indices": document.add_indices(surface.triangles, len(surface.vertices)),
+        "material": material,
+    }
+
+
+def _add_material(document: GltfBuilder, face: Face) -> int:
+    surface: dict[str, object] = {"metallicFactor": 0.0, "roughnessFactor": ROUGHNESS}
+    texture = _add_texture(document, face)
+    if texture is None:
+        surface["baseColorFactor"] = [*(round(linear(c), 4) for c in SKIN), 1.0]
+    else:
+        surface["baseColorTexture"] = {"index": texture}
+    # A face is a mask: seen from behind, it would otherwise be gone. Texels are there or not,
+    # so that blending, and the sorting it needs in a viewer, would be of no use.
+    cut_out = face.texture is not None and has_holes(face.texture)
+    return document.add(
+        "materials",
+        name="skin",
+        doubleSided=True,
+        alphaMode="MASK" if cut_out else None,
+        pbrMetallicRoughness=surface,
+    )
+
+
+def _add_texture(document: GltfBuilder, face: Face) -> int | None:
+    data = face.texture_file(compact=True)
+    if data is None:
+        return None
+    image = document.add(
+        "images", name="texture", mimeType=media_type(data), bufferView=document.add_view(data)
+    )
+    # The edge of the texture is the edge of the face: no colour may wrap round from ear to ear.
+    sampler = document.add(
+        "samplers",
+        magFilter=_LINEAR,
+        minFilter=_LINEAR_MIPMAP_LINEAR,
+        wrapS=_CLAMP_TO_EDGE,
+        wrapT=_CLAMP_TO_EDGE,
+    )
+    return document.add("textures", sampler=sampler, source=image)

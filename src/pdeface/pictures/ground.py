@@ -1,0 +1,69 @@
+"""What lies behind the face: a soft light gradient, a plain colour, or nothing."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.errors import InputError, require
+
+__all__ = ["STUDIO", "background_image", "over"]
+
+FloatArray = NDArray[np.floating[Any]]
+
+STUDIO: Final = "studio"
+
+CENTRE: Final = np.array([0.975, 0.976, 0.980])
+EDGE: Final = np.array([0.868, 0.876, 0.892])
+
+
+def background_image(background: Any, size: tuple[int, int]) -> FloatArray:
+    """(H, W, 3) sRGB values, 0 to 1.
+
+    Args:
+        background: ``"studio"`` for the soft gradient, a colour that Pillow knows by name or as
+            ``"#rrggbb"``, or three numbers from 0 to 1.
+        size: (width, height).
+    """
+    width, height = size
+    if isinstance(background, str) and background == STUDIO:
+        return _studio(width, height)
+    return np.broadcast_to(_color(background), (height, width, 3))
+
+
+def _studio(width: int, height: int) -> FloatArray:
+    x = (np.arange(width) + 0.5) / width - 0.5
+    y = (np.arange(height) + 0.5) / height - 0.44
+    far = np.hypot(x[None, :], y[:, None]) / 0.75
+    share = (np.clip(far, 0.0, 1.0) ** 2)[..., None]
+    return (1.0 - share) * CENTRE + share * EDGE
+
+
+def _color(background: Any) -> FloatArray:
+    if isinstance(background, str):
+        try:
+            named = require("PIL.ImageColor", "render", "to know colours by name")
+            return np.array(named.getrgb(background)[:3]) / 255.0
+        except ValueError:
+            color = np.array([np.nan])
+    else:
+        color = np.asarray(background, dtype=np.float64)
+    if color.shape != (3,) or not np.all((color >= 0.0) & (color <= 1.0)):
+        raise InputError(
+            "background is 'studio', a colour such as 'white' or '#ffeedd', or three numbers "
+            f"from 0 to 1, got {background!r}; try 'white'"
+        )
+    return color
+
+
+def over(picture: FloatArray, background: FloatArray) -> NDArray[np.uint8]:
+    """(H, W, 3) bytes of a premultiplied picture laid over a background.
+
+    A pattern of half a grey level keeps the gradient from showing steps.
+    """
+    color = picture[..., :3] + (1.0 - picture[..., 3:]) * background
+    i, j = np.ogrid[: color.shape[0], : color.shape[1]]
+    pattern = ((i * 2 + j * 3) % 4 / 4.0 - 0.375)[..., None] * (picture[..., 3:] < 1.0)
+    return np.clip(np.round(255.0 * color + pattern), 0, 255).astype(np.uint8)

@@ -1,0 +1,51 @@
+"""The page beside the redrawn figures: point by point, what agrees and what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from pdeface.pictures.paper.panels import Figure
+
+__all__ = ["page"]
+
+HEAD: Final = """\
+# The paper's figures, redrawn
+
+*PDE Face: A Novel 3D Face Model* shows its method in nine figures. Five of them are redrawn here
+from this project's own data by `pdeface paper`, to be held beside the paper; below each stands
+what agrees with it and what differs, and why. Lengths are in millimetres and angles in degrees,
+measured when the figures were drawn.
+"""
+
+TAIL: Final = """\
+## Figures that are not redrawn
+
+Figs. 4 and 7 are diagrams (the flowchart, and how texture mapping relates its spaces). Figs. 8
+and 9 show the paper's own program and the shape variations and blink made with it.
+"""
+
+
+def page(figures: Sequence[Figure]) -> str:
+    """The page as Markdown text."""
+    return "\n".join([HEAD, *map(_section, figures), TAIL])
+
+
+def _section(figure: Figure) -> str:
+    lines = [
+        f"## Fig. {figure.number}",
+        "",
+        figure.caption,
+        "",
+        f"![Fig. {figure.number}]({figure.file_name})",
+        "",
+        "**Agrees**",
+        "",
+        *(f"- {text}" for text in figure.agrees),
+        "",
+        "**Differs**",
+        "",
+        *(f"- {text}" for text in figure.differs),
+        "",
+    ]
+    return "\n".join(lines)

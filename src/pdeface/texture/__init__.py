@@ -1,0 +1,30 @@
+"""Textures from photos: feature points, the two-pass mesh warp, and the paper's five steps.
+
+    from pdeface.texture import portrait, uv_texture
+
+    photo, points = portrait()
+    texture = uv_texture(photo, points)
+    face = face.with_texture(texture.image)
+
+Image coordinates are pixels, x to the right and y down from the top-left corner of an image, so
+that the centre of pixel [row, column] is at (column + 1/2, row + 1/2).
+"""
+
+from __future__ import annotations
+
+from pdeface.texture.five_steps import UVTexture, uv_texture
+from pdeface.texture.photos import read_photo, write_image
+from pdeface.texture.points import POINT_NAMES, FeaturePoints
+from pdeface.texture.portrait import portrait
+from pdeface.texture.warp import warp
+
+__all__ = [
+    "POINT_NAMES",
+    "FeaturePoints",
+    "UVTexture",
+    "portrait",
+    "read_photo",
+    "uv_texture",
+    "warp",
+    "write_image",
+]

@@ -1,0 +1,39 @@
+"""Fixtures of every room."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+ROOT = Path(__file__).resolve().parents[1]
+IN_CI = os.environ.get("CI", "").lower() == "true"
+
+# No deadlines: a slow machine is not a bug. In CI the same examples every time.
+settings.register_profile("local", deadline=None)
+settings.register_profile("ci", deadline=None, derandomize=True)
+settings.load_profile("ci" if IN_CI else "local")
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The root of the repository."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """The folder of data that is not part of the repository: head meshes, models.
+
+    It lies beside the repository or where PDEFACE_SHARED says. Without it the tests that need it
+    are skipped, except in CI, where they must run.
+    """
+    folder = Path(os.environ.get("PDEFACE_SHARED") or ROOT.parent / "shared")
+    if (folder / "data").is_dir():
+        return folder
+    message = f"no data in {folder}; set PDEFACE_SHARED to the folder that holds data/"
+    if IN_CI:
+        pytest.fail(message)
+    pytest.skip(message)

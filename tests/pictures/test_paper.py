@@ -1,0 +1,133 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from pdeface.curves import BoundaryCurves
+from pdeface.errors import InputError
+from pdeface.face import Face
+from pdeface.pictures.paper import PAGE, paper
+from pdeface.pictures.paper.figure1 import four_curves, largest_gap, surfaces
+from pdeface.pictures.paper.figure3 import largest_crease
+from pdeface.pictures.paper.figure5 import window_around
+from pdeface.pictures.paper.figure6 import largest_miss
+from pdeface.pictures.paper.overlay import Overlay, mesh_lines
+from pdeface.texture import UVTexture, portrait, uv_texture
+
+from .conftest import head_points
+
+NUMBERS = (1, 2, 3, 5, 6)
+
+
+@pytest.fixture(scope="module")
+def redrawn(tmp_path_factory: pytest.TempPathFactory) -> tuple[list[Path], list[str]]:
+    told: list[str] = []
+    folder = tmp_path_factory.mktemp("paper") / "new" / "folder"
+    return paper(folder, progress=told.append), told
+
+
+@pytest.fixture(scope="module")
+def steps() -> UVTexture:
+    return uv_texture(*portrait())
+
+
+def test_every_figure_is_a_file_and_the_page_names_it(
+    redrawn: tuple[list[Path], list[str]],
+) -> None:
+    files, told = redrawn
+    assert [path.name for path in files] == [*(f"figure-{n}.png" for n in NUMBERS), PAGE]
+    assert sorted(path.name for path in files[0].parent.iterdir()) == sorted(
+        path.name for path in files
+    )
+    text = files[-1].read_text(encoding="utf-8")
+    for number in NUMBERS:
+        assert f"## Fig. {number}\n" in text
+        assert f"](figure-{number}.png)" in text
+    assert text.count("**Agrees**") == text.count("**Differs**") == len(NUMBERS)
+    assert [int(re.findall(r"\d+", line)[0]) for line in told] == list(NUMBERS)
+
+
+def test_no_panel_of_a_figure_is_blank(redrawn: tuple[list[Path], list[str]]) -> None:
+    for path in redrawn[0][:-1]:
+        image = np.asarray(Image.open(path).convert("L")).astype(float)
+        assert image.shape[0] >= 800
+        assert image.shape[1] >= 1000
+        for part in np.array_split(image, 3, axis=1):
+            assert part.std() > 8.0
+
+
+def test_bloor_and_wilson_miss_two_curves_and_the_face_form_none() -> None:
+    curves = four_curves()
+    blend, through = surfaces(curves)
+    assert largest_gap(through, curves) < 1e-12
+    assert largest_gap(blend, curves) > 0.005
+    for end, curve in ((0.0, 0), (1.0, 3)):
+        v = (np.arange(curves.shape[1]) + 0.5) * 2 * np.pi / curves.shape[1]
+        np.testing.assert_allclose(blend(end, v), curves[curve], atol=1e-12)
+
+
+def test_the_patchwise_join_has_creases_and_the_smooth_one_none() -> None:
+    face = Face(BoundaryCurves.from_half(head_points(28), 0.0))
+    assert largest_crease(face, "smooth") < 1e-5
+    assert largest_crease(face, "patchwise") > 0.05
+
+
+def test_the_grid_fits_eyes_and_mouth_and_misses_the_rest(steps: UVTexture) -> None:
+    """What Fig. 6(b) shows: eye centres on the grid, mouth corners on its horizontal."""
+    placed = steps.grid(steps.targets[..., 0], steps.targets[..., 1])
+    eyes = steps.points.array[1, [1, 3]]
+    apart = np.linalg.norm(eyes[1] - eyes[0])
+    assert np.abs(placed[1, [1, 3]].mean(axis=0) - eyes.mean(axis=0)).max() < 0.02 * apart
+    assert largest_miss(steps) > 0.05 * apart
+
+
+def test_a_face_of_other_curves_is_refused(tmp_path: Path, head: Face) -> None:
+    with pytest.raises(InputError, match="28 curves"):
+        paper(tmp_path, head)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError, match="folder"):
+        paper(tmp_path / "file" / "folder", Face(BoundaryCurves.from_half(head_points(28), 0.0)))
+
+
+def test_an_overlay_puts_dots_where_the_photo_has_their_points() -> None:
+    photo = np.full((100, 80, 3), 128, np.uint8)
+    overlay = Overlay(photo, (20.0, 30.0, 60.0, 70.0), (400, 400))
+    overlay.dots(np.array([[30.0, 60.0]]), (255, 0, 0), 11.0)
+    image = overlay.image().astype(int)
+    red = np.argwhere(image[..., 0] - image[..., 1] > 100)
+    np.testing.assert_allclose(red.mean(axis=0), [300.0, 100.0], atol=1.0)
+    assert image[10, 10].tolist() == [128, 128, 128]
+
+
+def test_an_overlay_shows_the_photo_upright_and_in_place() -> None:
+    photo = np.zeros((40, 60, 3), np.uint8)
+    photo[:20, :30] = (255, 0, 0)
+    image = Overlay(photo, (0.0, -10.0, 60.0, 50.0), (120, 120)).image().astype(int)
+    assert image[5, 60].tolist() == [255, 255, 255]
+    assert image[40, 30].tolist() == [255, 0, 0]
+    assert image[40, 90].tolist() == [0, 0, 0]
+    assert image[80, 30].tolist() == [0, 0, 0]
+
+
+def test_a_mesh_is_drawn_by_its_rows_and_columns() -> None:
+    lines = mesh_lines(np.arange(24.0).reshape(3, 4, 2))
+    assert sorted(line.shape for line in lines) == [(3, 2)] * 4 + [(4, 2)] * 3
+
+
+def test_a_window_holds_its_points_and_stays_in_the_photo() -> None:
+    photo = np.zeros((300, 200, 3), np.uint8)
+    left, top, right, bottom = window_around(np.array([[5.0, 50.0], [60.0, 120.0]]), photo)
+    assert left >= 0.0
+    assert left <= 5.0
+    assert right >= 60.0
+    assert top <= 50.0
+    assert bottom >= 120.0
+    assert right - left == pytest.approx(bottom - top)
