@@ -68,3 +68,18 @@ def test_rooms_import_rooms_and_not_the_whole_house(path: Path) -> None:
 def test_every_relative_is_called_by_its_full_name(path: Path) -> None:
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         assert not (isinstance(node, ast.ImportFrom) and node.level > 0)
+
+
+def test_no_source_is_ignored_by_git(root: Path) -> None:
+    """A pattern such as ``build/`` in .gitignore would keep a package of that name out."""
+    command = ["git", "check-ignore", "--no-index", "--stdin"]
+    listed = "\n".join(str(path.relative_to(root)) for path in MODULES)
+    try:
+        result = subprocess.run(
+            command, cwd=root, input=listed, capture_output=True, text=True, check=False
+        )
+    except FileNotFoundError:
+        pytest.skip("git is not installed")
+    if result.returncode == 128:
+        pytest.skip("not a git repository")
+    assert result.stdout == ""

@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 
 def curve_parameters(count: int) -> FloatArray:
     """Parameter ``v_j = (j + 1/2) 2 pi / M`` of each of the ``M = count`` points of a curve."""
-    return (np.arange(count) + 0.5) * (2.0 * np.pi / count)
+    return (np.arange(count, dtype=np.float64) + 0.5) * (2.0 * np.pi / count)
 
 
 def mirror_points(half: FloatArray, mirror_z: float = 0.0) -> FloatArray:
@@ -102,6 +102,10 @@ class BoundaryCurves:
     def displaced(self, displacement: Any) -> BoundaryCurves:
         """Curves moved by a (K, M, 3) displacement, metres."""
         return self.with_points(self.points + np.asarray(displacement, dtype=np.float64))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Unpickled arrays would be writable.
+        return type(self), (self.points, self.mirror_z)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, BoundaryCurves):

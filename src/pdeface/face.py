@@ -20,9 +20,10 @@ from pdeface.errors import FileFormatError, InputError
 from pdeface.files import PathLike, atomic_write
 from pdeface.pde import GridEvaluator, Join, PDESurface
 from pdeface.pde.surface import check_parameters
+from pdeface.template import neutral_curves
 from pdeface.uvmesh import FaceMesh, UVMesh
 
-__all__ = ["Face", "load"]
+__all__ = ["Face", "load", "neutral"]
 
 SUFFIX = ".pdeface"
 _LARGEST_FILE = 512 << 20
@@ -190,6 +191,22 @@ class Face:
             texture = f"texture {self.texture.shape[1]} x {self.texture.shape[0]}"
         name = f"{self.name!r}, " if self.name else ""
         return f"Face({name}{self.curves!r}, {texture})"
+
+
+def neutral(level: str = "28x46") -> Face:
+    """The neutral face, measured on a scanned head (see NOTICE).
+
+    Args:
+        level: ``"28x46"`` (the paper's, also called ``"paper"``), ``"55x92"`` or ``"109x184"``:
+            boundary curves x points on each. The first is the default, because it already looks
+            like the head that it was measured on, lids and lips included; the others add the rims
+            of the nostrils and finer lids.
+
+    Raises:
+        InputError: no such level.
+    """
+    notes = {"source": "measured on the neutral head of ICT-FaceKit; see NOTICE"}
+    return Face(neutral_curves(level), name="neutral", notes=notes)
 
 
 def load(path: PathLike) -> Face:

@@ -57,7 +57,7 @@ class UVMesh:
         """(columns,) values of v, radians."""
         if self.extent == "face":
             return np.linspace(0.0, np.pi, self.columns)
-        return np.arange(self.columns) * (2.0 * np.pi / self.columns)
+        return np.arange(self.columns, dtype=np.float64) * (2.0 * np.pi / self.columns)
 
     @property
     def vertex_count(self) -> int:

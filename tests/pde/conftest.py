@@ -42,8 +42,8 @@ def paper_basis(w: Any) -> list[Solution]:
         return lambda t, d: (sign * w) ** d * mp.exp(sign * w * t)
 
     def t_times(sign: int) -> Solution:
-        return lambda t, d: ((sign * w * t + d) * (sign * w) ** (d - 1) if d else t) * mp.exp(
-            sign * w * t
+        return lambda t, d: (
+            ((sign * w * t + d) * (sign * w) ** (d - 1) if d else t) * mp.exp(sign * w * t)
         )
 
     return [grown(1), t_times(1), grown(-1), t_times(-1)]
@@ -95,14 +95,18 @@ def spline(w: Any, values: Sequence[Any], continuity: Mapping[int, str] | None =
     def free(t: int) -> Callable[[Solution], Any]:
         return lambda f: f(mp.mpf(t), 2) - omega**2 * f(mp.mpf(t), 0)
 
-    slits = {curve + edge for curve, kind in continuity.items() if kind == "slit" for edge in (0, 1)}
+    slits = {
+        curve + edge for curve, kind in continuity.items() if kind == "slit" for edge in (0, 1)
+    }
     for i in range(intervals):
         equation([(i, 1, at(0, 0))], values[i])
         equation([(i, 1, at(1, 0))], values[i + 1])
     for curve in range(intervals + 1):
         before, after = curve - 1, curve
-        if curve in (0, intervals):
-            equation([(min(after, before) if curve else 0, 1, free(1 if curve else 0))], 0)
+        if curve == 0:
+            equation([(after, 1, free(0))], 0)
+        elif curve == intervals:
+            equation([(before, 1, free(1))], 0)
         elif curve in slits or continuity.get(curve) == "crease":
             equation([(before, 1, free(1))], 0)
             equation([(after, 1, free(0))], 0)

@@ -169,7 +169,7 @@ def test_curves_are_met_whatever_the_rounding_of_u():
 def test_two_and_three_curves_are_enough_for_the_smooth_join():
     assert slopes(3.0, 2).shape == (1, 2, 2)
     values = np.array([1.0, 2.0, 0.5])
-    middle = u_weights(0.5, 3.0, 3) @ values
+    middle = u_weights([0.5], 3.0, 3) @ values
     assert middle == pytest.approx(2.0, abs=1e-15)
 
 

@@ -92,4 +92,3 @@ def test_an_exponent_of_an_n_t_ripples_and_a_ninth_of_it_does_not():
     assert overshoot[22 / 9] < 1.2
     assert overshoot[7.0] > 1.5
     assert overshoot[22.0] > 50.0
-

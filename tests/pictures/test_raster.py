@@ -34,8 +34,8 @@ def camera() -> Camera:
 def test_a_square_covers_as_many_pixels_as_it_should(camera: Camera) -> None:
     image = raster_numpy.draw([square((1, 0, 0))], camera, SIZE)
     side = 0.2 / camera.pixel_size(SIZE[1])
-    assert image[..., 3].sum() == pytest.approx(side**2, rel=0.03)
-    assert set(np.unique(image[..., 3])) == {0.0, 1.0}
+    assert (image[..., 3] > 0).sum() == pytest.approx(side**2, rel=0.03)
+    assert set(np.unique(image[..., 3])) == {0, 255}
     np.testing.assert_allclose(image[..., 0], image[..., 3])
 
 
@@ -44,20 +44,21 @@ def test_the_nearer_one_is_seen_in_whatever_order(camera: Camera) -> None:
     middle = SIZE[1] // 2, SIZE[0] // 2
     for order in ([near, far], [far, near]):
         image = raster_numpy.draw(order, camera, SIZE)
-        np.testing.assert_allclose(image[middle], [1, 0, 0, 1], atol=1e-12)
+        assert image[middle].tolist() == [255, 0, 0, 255]
 
 
 def test_back_sides_are_not_seen(camera: Camera) -> None:
     turned = replace(square((1, 0, 0)), triangles=TWO[:, ::-1])
-    assert raster_numpy.draw([turned], camera, SIZE).max() == 0.0
+    assert raster_numpy.draw([turned], camera, SIZE).max() == 0
 
 
 def test_colours_are_linear_across_a_face_seen_straight_on(camera: Camera) -> None:
     solid = replace(square((0, 0, 0)), colors=np.column_stack([CORNERS, np.zeros(4)]))
     image = raster_numpy.draw([solid], camera, SIZE)
     row = image[50][image[50, :, 3] > 0][:, 0]
-    assert np.ptp(np.diff(row)) < 1e-6
-    assert 0.0 < row[0] < row[-1] < 1.0
+    assert np.ptp(np.diff(row.astype(int))) <= 1
+    assert 0 < row[0] < 4
+    assert 251 < row[-1] < 255
 
 
 def test_interpolation_is_right_in_perspective() -> None:
@@ -68,7 +69,7 @@ def test_interpolation_is_right_in_perspective() -> None:
     at = np.array([0.03, 0.0, 0.0])
     (x, y), _ = camera.project(at, (800, 1000))
     expected = (at[0] + 0.1) / 0.2
-    assert image[int(y), int(x), 0] == pytest.approx(expected, abs=0.01)
+    assert image[int(y), int(x), 0] / 255 == pytest.approx(expected, abs=0.01)
 
 
 def test_a_texture_lies_upright_and_unmirrored(camera: Camera) -> None:
@@ -80,7 +81,7 @@ def test_a_texture_lies_upright_and_unmirrored(camera: Camera) -> None:
         rasterisers.append(raster_vtk.Canvas().draw)
     for draw in rasterisers:
         image = draw([solid], camera, SIZE)
-        inside = np.argwhere(image[..., 3] > 0.99)
+        inside = np.argwhere(image[..., 3] == 255)
         (top, left), (bottom, right) = inside.min(axis=0), inside.max(axis=0)
         assert image[top + 3, left + 3, :3].argmax() == 0
         assert image[top + 3, right - 3, :3].argmax() == 1
@@ -90,11 +91,11 @@ def test_a_texture_lies_upright_and_unmirrored(camera: Camera) -> None:
 def test_something_partly_outside_the_picture_is_drawn(camera: Camera) -> None:
     solid = replace(square((1, 0, 0)), vertices=SQUARE * 3.0)
     image = raster_numpy.draw([solid], camera, SIZE)
-    assert image[..., 3].min() == 1.0
+    assert image[..., 3].min() == 255
 
 
 def test_nothing_to_draw_is_an_empty_picture(camera: Camera) -> None:
-    assert raster_numpy.draw([], camera, SIZE).max() == 0.0
+    assert raster_numpy.draw([], camera, SIZE).max() == 0
 
 
 @needs_opengl
@@ -112,7 +113,7 @@ def test_both_rasterisers_draw_the_same(painted: Face, style: str) -> None:
 
 def shrunk(image: np.ndarray, factor: int) -> np.ndarray:
     height, width = image.shape[0] // factor, image.shape[1] // factor
-    return image.reshape(height, factor, width, factor, 4).mean(axis=(1, 3))
+    return image.reshape(height, factor, width, factor, 4).mean(axis=(1, 3)) / 255.0
 
 
 @needs_opengl
@@ -124,4 +125,4 @@ def test_a_canvas_draws_one_picture_after_another(painted: Face) -> None:
         canvas.draw(STYLES["textured"](painted, c, options), c, (160, 200)) for c in cameras
     ]
     np.testing.assert_array_equal(pictures[0], pictures[2])
-    assert np.abs(pictures[0] - pictures[1]).mean() > 0.01
+    assert np.abs(pictures[0].astype(int) - pictures[1]).mean() > 2.0

@@ -11,7 +11,11 @@ import pdeface
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.pictures import canvas, raster_numpy, raster_vtk, render
+from pdeface.pictures.camera import VIEWS
+from pdeface.pictures.light import RIGS
+from pdeface.pictures.options import FINE_MESH, PAPER_MESH
 from pdeface.pictures.styles import STYLES
+from pdeface.pictures.styles.curvature import FINE as CURVATURE_MESH
 
 SIZE = (160, 200)
 MESH = (40, 50)
@@ -221,3 +225,11 @@ def test_it_draws_without_opengl(
     assert canvas._rasteriser() is raster_numpy.draw
     without = render(painted, mesh=MESH, size=SIZE).astype(int)
     assert np.abs(with_it - without).mean() < 1.0
+
+
+def test_the_docs_name_every_view_style_and_light(root: Path) -> None:
+    text = (root / "docs" / "pictures" / "README.md").read_text(encoding="utf-8")
+    missing = [name for name in (*VIEWS, *STYLES, *RIGS) if f"`{name}`" not in text]
+    assert missing == []
+    for mesh in (FINE_MESH, PAPER_MESH, CURVATURE_MESH):
+        assert f"{mesh[0]} x {mesh[1]}" in text

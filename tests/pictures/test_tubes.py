@@ -50,7 +50,8 @@ def test_balls_face_the_camera() -> None:
     solid = balls(centres, 0.01, np.array([[1.0, 0, 0], [0, 1.0, 0]]), camera)
     a, b, c = (solid.vertices[solid.triangles[:, k]] for k in range(3))
     assert np.all(np.cross(b - a, c - a) @ camera.backward > -1e-12)
-    near = np.linalg.norm(solid.vertices[:, None] - centres, axis=-1).min(axis=1)
+    middles = centres + 0.01 * camera.backward
+    near = np.linalg.norm(solid.vertices[:, None] - middles, axis=-1).min(axis=1)
     assert near.max() == pytest.approx(0.01)
 
 

@@ -39,10 +39,14 @@ def make(
                      "PHOTO (docs/points.md)."),
     ] = None,
     level: Annotated[
-        str,
-        typer.Option("--level", metavar="CURVESxPOINTS", help="Boundary curves of the neutral "
-                     "face: 28x46 is the paper's, 55x92 and 109x184 are finer."),
-    ] = "",
+        str | None,
+        typer.Option(
+            "--level",
+            metavar="CURVESxPOINTS",
+            help="Boundary curves of the neutral face: 28x46, the paper's and the default, or "
+            "the finer 55x92 and 109x184.",
+        ),
+    ] = None,
     mesh: MeshOption = "109x161",
     join: JoinOption = "smooth",
     quiet: QuietOption = False,
@@ -87,7 +91,9 @@ def _textured(face: Face, photo: Path | None, points: Path | None) -> Face:
 
     if photo is None or points is None:
         image, places = portrait()
-        face = face.with_notes({"photo": "Eileen Collins; NASA, public domain"})
+        face = face.with_name("portrait").with_notes(
+            {"photo": "Eileen Collins; NASA, public domain"}
+        )
     else:
         # The points first: they are read in no time, and a mistake in them is likelier.
         places, image = FeaturePoints.load(points), read_photo(photo)

@@ -99,6 +99,6 @@ def u_weights(
     side: Side = "after",
     derivative: int = 0,
 ) -> FloatArray:
-    """(U, K) weights of the K curves' positions in one mode of wave number w at each u."""
-    rows = locate(u, count, side, continuity)
+    """(U, K) weights of the K curves' positions in one mode of wave number w at each of (U,) u."""
+    rows = locate(np.atleast_1d(u), count, side, continuity)
     return row_weights(rows, w, slopes(w, count, join, continuity), derivative)

@@ -15,8 +15,8 @@ FloatArray = NDArray[np.floating[Any]]
 
 STUDIO: Final = "studio"
 
-CENTRE: Final = np.array([0.975, 0.976, 0.980])
-EDGE: Final = np.array([0.868, 0.876, 0.892])
+CENTRE: Final = np.array([0.975, 0.976, 0.980], np.float32)
+EDGE: Final = np.array([0.868, 0.876, 0.892], np.float32)
 
 
 def background_image(background: Any, size: tuple[int, int]) -> FloatArray:
@@ -30,15 +30,14 @@ def background_image(background: Any, size: tuple[int, int]) -> FloatArray:
     width, height = size
     if isinstance(background, str) and background == STUDIO:
         return _studio(width, height)
-    return np.broadcast_to(_color(background), (height, width, 3))
+    return np.broadcast_to(_color(background).astype(np.float32), (height, width, 3))
 
 
 def _studio(width: int, height: int) -> FloatArray:
-    x = (np.arange(width) + 0.5) / width - 0.5
-    y = (np.arange(height) + 0.5) / height - 0.44
-    far = np.hypot(x[None, :], y[:, None]) / 0.75
-    share = (np.clip(far, 0.0, 1.0) ** 2)[..., None]
-    return (1.0 - share) * CENTRE + share * EDGE
+    x = (np.arange(width, dtype=np.float32) + 0.5) / width - 0.5
+    y = (np.arange(height, dtype=np.float32) + 0.5) / height - 0.44
+    share = np.minimum((x[None, :] ** 2 + y[:, None] ** 2) / 0.75**2, 1.0)[..., None]
+    return CENTRE + share * (EDGE - CENTRE)
 
 
 def _color(background: Any) -> FloatArray:
@@ -65,5 +64,6 @@ def over(picture: FloatArray, background: FloatArray) -> NDArray[np.uint8]:
     """
     color = picture[..., :3] + (1.0 - picture[..., 3:]) * background
     i, j = np.ogrid[: color.shape[0], : color.shape[1]]
-    pattern = ((i * 2 + j * 3) % 4 / 4.0 - 0.375)[..., None] * (picture[..., 3:] < 1.0)
-    return np.clip(np.round(255.0 * color + pattern), 0, 255).astype(np.uint8)
+    pattern = ((i * 2 + j * 3) % 4 / np.float32(4.0) - np.float32(0.375))[..., None]
+    color = np.float32(255.0) * color + pattern * (picture[..., 3:] < 1.0)
+    return np.clip(np.rint(color), 0, 255).astype(np.uint8)

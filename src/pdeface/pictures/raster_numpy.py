@@ -27,10 +27,10 @@ NEAR = 1e-3
 """Metres in front of the camera from which on triangles are drawn."""
 
 
-def draw(solids: Sequence[Solid], camera: Camera, size: tuple[int, int]) -> NDArray[np.float32]:
-    """(H, W, 4) premultiplied red, green, blue and coverage, 0 to 1, without anti-aliasing."""
+def draw(solids: Sequence[Solid], camera: Camera, size: tuple[int, int]) -> NDArray[np.uint8]:
+    """(H, W, 4) premultiplied red, green, blue and coverage, 0 to 255, without anti-aliasing."""
     width, height = size
-    image = np.zeros((height * width, 4), np.float32)
+    image = np.zeros((height * width, 4), np.uint8)
     depth = np.full(height * width, np.inf)
     for solid in solids:
         xy, z = camera.project(solid.vertices, size)
@@ -42,8 +42,8 @@ def draw(solids: Sequence[Solid], camera: Camera, size: tuple[int, int]) -> NDAr
             won = near <= depth[pixel]
             corners, pixel, weights = corners[won], pixel[won], weights[won]
             weights = weights * inverse[corners] * near[won][:, None]
-            image[pixel, :3] = _colors(solid, corners, weights)
-            image[pixel, 3] = 1.0
+            image[pixel, :3] = np.round(255.0 * _colors(solid, corners, weights))
+            image[pixel, 3] = 255
     return image.reshape(height, width, 4)
 
 

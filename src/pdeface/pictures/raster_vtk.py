@@ -23,7 +23,7 @@ from pdeface.pictures.solid import Solid
 
 __all__ = ["Canvas", "available"]
 
-FloatArray = NDArray[np.floating[Any]]
+Pixels = NDArray[np.uint8]
 
 _POINTER = ctypes.c_void_p
 _EGL_PLATFORM_DEVICE = 0x313F
@@ -62,7 +62,7 @@ def _without_a_screen() -> Iterator[None]:
 
 
 def _egl_answers() -> bool:
-    """Whether libEGL is there and opens a display on some device, without a screen."""
+    """Whether libEGL is there and opens a display on the device that VTK takes: the first."""
     try:
         egl = ctypes.CDLL("libEGL.so.1")
         egl.eglGetProcAddress.restype = _POINTER
@@ -76,11 +76,11 @@ def _egl_answers() -> bool:
         return False
     devices = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, _POINTER, _POINTER)(devices_at)
     display = ctypes.CFUNCTYPE(_POINTER, ctypes.c_int, _POINTER, _POINTER)(display_at)
-    found, count = (_POINTER * 16)(), ctypes.c_int()
-    if not devices(16, ctypes.addressof(found), ctypes.addressof(count)):
+    found, count = (_POINTER * 1)(), ctypes.c_int()
+    if not devices(1, ctypes.addressof(found), ctypes.addressof(count)) or not count.value:
         return False
-    handles = [display(_EGL_PLATFORM_DEVICE, found[k], None) for k in range(count.value)]
-    return any(h and egl.eglInitialize(h, None, None) for h in handles)
+    first = display(_EGL_PLATFORM_DEVICE, found[0], None)
+    return bool(first) and bool(egl.eglInitialize(first, None, None))
 
 
 class Canvas:
@@ -98,8 +98,8 @@ class Canvas:
         self._plotter.renderer.SetBackground(0.0, 0.0, 0.0)
         self._plotter.renderer.SetBackgroundAlpha(0.0)
 
-    def draw(self, solids: Sequence[Solid], camera: Camera, size: tuple[int, int]) -> FloatArray:
-        """(H, W, 4) premultiplied red, green, blue and coverage, 0 to 1."""
+    def draw(self, solids: Sequence[Solid], camera: Camera, size: tuple[int, int]) -> Pixels:
+        """(H, W, 4) premultiplied red, green, blue and coverage, 0 to 255."""
         plotter = self._plotter
         plotter.clear_actors()
         plotter.window_size = list(size)
@@ -109,7 +109,7 @@ class Canvas:
         plotter.render_window.Render()
         return self._pixels(size)
 
-    def _pixels(self, size: tuple[int, int]) -> FloatArray:
+    def _pixels(self, size: tuple[int, int]) -> Pixels:
         """What is in the window: unlike a screenshot, with its coverage exact at the edges."""
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
@@ -117,8 +117,8 @@ class Canvas:
         width, height = size
         buffer = vtkUnsignedCharArray()
         self._plotter.render_window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, buffer)
-        image = vtk_to_numpy(buffer).reshape(height, width, 4)[::-1]
-        return image.astype(np.float32) / np.float32(255.0)
+        image: Pixels = vtk_to_numpy(buffer).reshape(height, width, 4)
+        return image[::-1]
 
     def _aim(self, camera: Camera, solids: Sequence[Solid]) -> None:
         view = self._plotter.camera

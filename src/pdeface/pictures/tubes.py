@@ -67,7 +67,9 @@ def _ring_triangles(count: int, closed: bool) -> NDArray[np.int32]:
 def balls(
     centres: FloatArray, radius: float, color: FloatArray, camera: Camera, rings: int = 3
 ) -> Solid:
-    """Half balls that face the camera.
+    """Half balls that face the camera, a radius in front of their points.
+
+    There a surface through the points cuts none of a ball off, even where it is seen edge on.
 
     Args:
         centres: (B, 3) metres.
@@ -75,7 +77,7 @@ def balls(
     """
     unit, triangles = _dome(rings, sides=12)
     axes = np.stack([camera.right, camera.up, camera.backward])
-    shape = radius * (unit @ axes)
+    shape = radius * (unit @ axes + camera.backward)
     centres = np.asarray(centres, dtype=np.float64).reshape(-1, 3)
     vertices = (centres[:, None] + shape).reshape(-1, 3)
     starts = (np.arange(len(centres)) * len(unit))[:, None, None]

@@ -81,7 +81,8 @@ def finish(
 
 def _hold(knots: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
     """A curve through points, level beyond its ends."""
-    return _spline.evaluate(knots, values, np.clip(at, knots[0], knots[-1]))
+    curve = _spline.coefficients(knots, values)
+    return _spline.evaluate(knots, curve, np.clip(at, knots[0], knots[-1]))
 
 
 def _fade(inside: FloatArray) -> FloatArray:

@@ -95,7 +95,8 @@ def row_knots(
         InputError: two curves cross between their nodes.
     """
     height = source[..., 1].T
-    ends = _spline.evaluate(height, np.stack([target[..., 0].T, source[..., 0].T]), rows)
+    curves = _spline.coefficients(height, np.stack([target[..., 0].T, source[..., 0].T]))
+    ends = _spline.evaluate(height, curves, rows)
     _check_curves(ends, rows, height, "columns", names)
     return ends[0].T, ends[1].T
 
@@ -117,7 +118,8 @@ def column_knots(
         InputError: two curves cross between their nodes.
     """
     across = target[..., 0]
-    ends = _spline.evaluate(across, np.stack([target[..., 1], source[..., 1]]), columns)
+    curves = _spline.coefficients(across, np.stack([target[..., 1], source[..., 1]]))
+    ends = _spline.evaluate(across, curves, columns)
     _check_curves(ends, columns, across, "rows", names)
     return ends[0].T, ends[1].T
 

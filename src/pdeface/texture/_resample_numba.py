@@ -3,11 +3,10 @@
 """Both passes of the mesh warp compiled by numba: as ``_resample_numpy``, ten times faster.
 
 Serial on purpose: numba's threading layers stall on small work, and a caller may run many warps
-side by side. Compiled code is kept on disk. The target image is made in strips of columns, so
-that what lies between the passes stays in the cache; a few lines are worked on together, so that
-turning rows into columns fills whole cache lines. Positions are computed in double precision,
-pixels in single. Indices are unsigned, which spares numba's test for negative ones, and the
-channels come as a tuple of their number, which makes every loop over them one of known length.
+side by side. Compiled code is kept on disk. A few rows are worked on together, so that writing
+them as columns fills whole cache lines. Positions are computed in double precision, pixels in
+single. Indices are unsigned, which spares numba's test for negative ones, and the channels come
+as a tuple of their number, which makes every loop over them one of known length.
 """
 
 from __future__ import annotations
@@ -18,37 +17,41 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.texture import _spline
-from pdeface.texture._resample_numpy import SNAP, THIN
+from pdeface.texture._resample_numpy import SNAP, THIN, LineMaps
 
 __all__ = ["two_pass"]
 
-FloatArray = NDArray[np.float64]
-
 _SNAP, _THIN = SNAP, THIN
-_STRIP = 64
+_BUNDLE_BYTES = 32
+"""What one output line gets at a time."""
 
 
 def two_pass(
-    image: NDArray[Any],
-    horizontal: tuple[FloatArray, FloatArray],
-    vertical: tuple[FloatArray, FloatArray],
-    shape: tuple[int, int],
+    image: NDArray[Any], horizontal: LineMaps, vertical: LineMaps, shape: tuple[int, int]
 ) -> NDArray[Any]:
     """As :func:`pdeface.texture._resample_numpy.two_pass`."""
-    rows, length, channels = image.shape
-    whole = image.dtype.kind == "u"
-    result = np.empty((*shape, channels), image.dtype)
-    _two_pass(
-        np.ascontiguousarray(image).reshape(rows, length * channels),
+    work = np.dtype(np.float64 if image.dtype == np.float64 else np.float32)
+    between = _resample(image, horizontal, shape[1], work)
+    return _resample(between, vertical, shape[0], image.dtype)
+
+
+def _resample(
+    image: NDArray[Any], maps: LineMaps, width: int, dtype: np.dtype[Any]
+) -> NDArray[Any]:
+    """Every row of ``image``, resampled to ``width`` pixels; rows become columns."""
+    count, length, channels = image.shape
+    work = np.float64 if image.dtype == np.float64 else np.float32
+    result = np.empty((width, count, channels), dtype)
+    _rows(
+        np.ascontiguousarray(image).reshape(count, length * channels),
+        np.ascontiguousarray(maps[0]),
+        np.ascontiguousarray(maps[1]),
         (1,) * channels,
-        np.ascontiguousarray(horizontal[0]),
-        _spline.coefficients(*horizontal),
-        np.ascontiguousarray(vertical[0]),
-        _spline.coefficients(*vertical),
-        float(np.iinfo(image.dtype).max) if whole else 0.0,
-        np.empty(0, np.float64 if image.dtype == np.float64 else np.float32),
-        result.reshape(shape[0], shape[1] * channels),
+        np.empty((length + 3) * channels, work),
+        np.empty(width * channels, work),
+        float(np.iinfo(dtype).max) if dtype.kind == "u" else 0.0,
+        np.empty((max(1, _BUNDLE_BYTES // dtype.itemsize), width * channels), dtype),
+        result.reshape(width, count * channels),
     )
     return result
 
@@ -63,36 +66,27 @@ def _jit(function: Any) -> Any:
 
 
 @_jit
-def _fill_line(row, first, last, channels, line, steps):
-    """Pixels ``first - 1`` to ``last + 2`` of a row, and their differences.
-
-    Beyond its ends the row repeats its last pixels. ``line`` begins at pixel ``first - 1``.
-    """
-    c, length = len(channels), row.size // len(channels)
-    low, high = max(first - 1, 0), min(last + 3, length)
-    shift = (low - first + 1) * c
-    for k in range((high - low) * c):
-        line[shift + k] = row[low * c + k]
-    if low == first:
-        for k in range(c):
-            line[k] = line[c + k]
-    end = shift + (high - low) * c
-    size = (last - first + 4) * c
-    for k in range(end, size):
-        line[k] = line[k - c]
-    for k in range(size - c):
+def _fill_line(row, channels, line, steps):
+    """A source row, its first pixel repeated once before it and its last twice behind."""
+    c, size = len(channels), row.size
+    for k in range(size):
+        line[c + k] = row[k]
+    for k in range(c):
+        line[k] = row[k]
+        line[c + size + k] = line[2 * c + size + k] = row[size - c + k]
+    for k in range(size + 2 * c):
         steps[k] = line[k + c] - line[k]
 
 
 @_jit
-def _fill_edges(to, polynomials, start, length, edges):
-    """Preimages of the output pixels' edges from ``start``: ``edge_map`` of one row."""
+def _fill_edges(to, polynomials, length, edges):
+    """Preimages of the output pixels' edges: ``_resample_numpy.edge_map`` of one row."""
     k = 0
     for piece in range(polynomials.shape[0]):
         end = edges.size
         if piece < to.size:
-            end = max(k, int(min(max(np.ceil(to[piece]) - start, 0.0), float(end))))
-        origin = to[max(piece - 1, 0)] - start
+            end = max(k, int(min(max(np.ceil(to[piece]), 0.0), float(end))))
+        origin = to[max(piece - 1, 0)]
         c0, c1, c2, c3 = polynomials[piece]
         for j in range(k, end):
             d = j - origin
@@ -106,10 +100,11 @@ def _fill_edges(to, polynomials, start, length, edges):
 @_jit
 def _fill_weights(edges, length, pixel, t, w0, w1, w2):
     """Pixel and place within it of every edge; weights as in ``_resample_numpy._weights``."""
-    last = np.uint32(length - 1)
+    last = float(length - 1)
     for k in range(edges.size):
-        pixel[k] = min(np.uint32(edges[k]), last)
-        t[k] = edges[k] - pixel[k]
+        whole = min(np.floor(edges[k]), last)
+        pixel[k] = np.uint32(whole)
+        t[k] = edges[k] - whole
     for k in range(edges.size - 1):
         t0, t1 = t[k], t[k + 1]
         s0, s1 = 1.0 - t0, 1.0 - t1
@@ -128,12 +123,12 @@ def _fill_weights(edges, length, pixel, t, w0, w1, w2):
 
 @_jit
 def _fill_means(line, steps, edges, pixel, t, w0, w1, w2, channels, out):
-    """Mean of the row's curve over every preimage; ``line`` begins one pixel early."""
+    """Mean of the row's curve over every preimage."""
     step = np.uint64(len(channels))
     for j in range(w0.size):
         k = np.uint64(j)
-        first = np.uint64(pixel[k] - pixel[0])
-        beyond = np.uint64(pixel[k + np.uint64(1)] - pixel[k])
+        first = np.uint64(pixel[k])
+        beyond = np.uint64(pixel[k + np.uint64(1)]) - first
         if beyond < np.uint64(2):
             for c in range(len(channels)):
                 at = first * step + np.uint64(c)
@@ -153,8 +148,8 @@ def _wide_mean(line, edges, pixel, t, k, channels, out):
     step, t0, t1 = len(channels), t[k], t[k + 1]
     a0, b0 = 0.5 * t0 * (1.0 - t0) ** 2, 0.5 * t0 * t0 * (1.0 - t0)
     a1, b1 = 0.5 * t1 * (1.0 - t1) ** 2, 0.5 * t1 * t1 * (1.0 - t1)
-    i = (np.int64(pixel[k]) - np.int64(pixel[0]) + 1) * step
-    j = (np.int64(pixel[k + 1]) - np.int64(pixel[0]) + 1) * step
+    i = (np.int64(pixel[k]) + 1) * step
+    j = (np.int64(pixel[k + 1]) + 1) * step
     for c in range(step):
         f0, f1 = line[i + c], line[j + c]
         total = 0.0
@@ -181,7 +176,7 @@ def _store(values, top, out):
 
 @_jit
 def _transpose(bundle, size, channels, first, result):
-    """Lines of the bundle to columns ``first``, ``first + 1``, ... of the result."""
+    """Rows of the bundle to columns ``first``, ``first + 1``, ... of the result."""
     step = np.uint64(len(channels))
     for j in range(result.shape[0]):
         k = np.uint64(j)
@@ -194,42 +189,21 @@ def _transpose(bundle, size, channels, first, result):
 
 
 @_jit
-def _pass(image, channels, to, polynomials, start, top, work, bundle, result):
-    """Resample every row of ``image`` from output pixel ``start`` on, into columns of ``result``."""
+def _rows(image, to, polynomials, channels, line, values, top, bundle, result):
+    """The pass: see :func:`_resample`; ``line`` and ``values`` are room to work in."""
     width, length = result.shape[0], image.shape[1] // len(channels)
-    edges, t, pixel = np.empty(width + 1), np.empty(width + 1), np.empty(width + 1, np.uint32)
-    w0, w1, w2 = (
-        np.empty(width, work.dtype),
-        np.empty(width, work.dtype),
-        np.empty(width, work.dtype),
-    )
-    values = np.empty(width * len(channels), work.dtype)
-    line = np.empty((length + 3) * len(channels), work.dtype)
-    steps = np.empty_like(line)
+    edges, t = np.empty(width + 1), np.empty(width + 1)
+    pixel = np.empty(width + 1, np.uint32)
+    steps = np.empty(line.size - len(channels), line.dtype)
+    w0, w1 = np.empty(width, line.dtype), np.empty(width, line.dtype)
+    w2 = np.empty(width, line.dtype)
     for first in range(0, image.shape[0], bundle.shape[0]):
         size = min(bundle.shape[0], image.shape[0] - first)
         for b in range(size):
             row = first + b
-            _fill_edges(to[row], polynomials[row], start, length, edges)
+            _fill_line(image[row], channels, line, steps)
+            _fill_edges(to[row], polynomials[row], length, edges)
             _fill_weights(edges, length, pixel, t, w0, w1, w2)
-            low, high = np.int64(pixel[0]), np.int64(pixel[width])
-            _fill_line(image[row], low, high, channels, line, steps)
             _fill_means(line, steps, edges, pixel, t, w0, w1, w2, channels, values)
             _store(values, top, bundle[b])
         _transpose(bundle, size, channels, first, result)
-
-
-@_jit
-def _two_pass(image, channels, to_x, from_x, to_y, from_y, top, work, result):
-    """Both passes, a strip of columns at a time; see :func:`two_pass`."""
-    step, height, width = len(channels), result.shape[0], result.shape[1] // len(channels)
-    between = np.empty((_STRIP, image.shape[0] * step), work.dtype)
-    columns = np.empty((32 // result.itemsize, height * step), result.dtype)
-    rows = np.empty((8, _STRIP * step), work.dtype)
-    for start in range(0, width, _STRIP):
-        size = min(_STRIP, width - start)
-        end = start + size
-        strip = between[:size]
-        _pass(image, channels, to_x, from_x, start, 0.0, work, rows, strip)
-        part = result[:, start * step : end * step]
-        _pass(strip, channels, to_y[start:end], from_y[start:end], 0, top, work, columns, part)

@@ -22,10 +22,14 @@ from numpy.typing import NDArray
 
 from pdeface.texture import _spline
 
-__all__ = ["SNAP", "THIN", "edge_map", "two_pass"]
+__all__ = ["SNAP", "THIN", "LineMaps", "edge_map", "two_pass"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
+
+LineMaps = tuple[FloatArray, FloatArray]
+"""Of n lines: (n, C) knots in the output, and the (n, C + 1, 4) polynomials of
+``_spline.coefficients`` that lead from there to the source."""
 
 SNAP = 1e-6
 """A preimage's end so near to a pixel's edge is on it: rounding must not blur an identity."""
@@ -37,48 +41,43 @@ _BLOCK = 1 << 16
 """Samples worked on at a time: what stays in a processor's cache."""
 
 
-def edge_map(to: FloatArray, start: FloatArray, width: int, length: int) -> FloatArray:
+def edge_map(maps: LineMaps, width: int, length: int) -> FloatArray:
     """Where the edges between the output pixels of each row come from.
 
     Args:
-        to: (n, C) increasing positions in the output row.
-        start: (n, C) the increasing positions in the source row that they come from.
+        maps: of n rows.
         width: pixels of an output row.
         length: pixels of a source row.
 
     Returns:
         (n, width + 1) positions in [0, length], never decreasing along a row.
     """
-    edges = _spline.evaluate(to, start, np.arange(width + 1.0))
+    edges = _spline.evaluate(*maps, np.arange(width + 1.0))
     nearest = np.rint(edges)
     edges = np.where(np.abs(edges - nearest) < SNAP, nearest, edges)
     return np.asarray(np.clip(edges, 0.0, length))
 
 
 def two_pass(
-    image: NDArray[Any],
-    horizontal: tuple[FloatArray, FloatArray],
-    vertical: tuple[FloatArray, FloatArray],
-    shape: tuple[int, int],
+    image: NDArray[Any], horizontal: LineMaps, vertical: LineMaps, shape: tuple[int, int]
 ) -> NDArray[Any]:
     """Resample every row, then every column of the result.
 
     Args:
         image: (h, w, channels).
-        horizontal: (h, C) positions in an output row, and (h, C) those in the source row that
-            they come from, as for :func:`edge_map`.
-        vertical: (width, R) positions in an output column, and (width, R) where they come from.
+        horizontal: from each output row to the source row, h of them.
+        vertical: from each output column to the source column, ``width`` of them.
         shape: (height, width) of the result.
 
     Returns:
         (height, width, channels), of the image's type; integers are rounded and clipped.
     """
-    between = _resample(image, *horizontal, shape[1], _work(image.dtype))
-    return _resample(between, *vertical, shape[0], image.dtype)
+    between = _resample(image, horizontal, shape[1], _work(image.dtype))
+    return _resample(between, vertical, shape[0], image.dtype)
 
 
 def _resample(
-    image: NDArray[Any], to: FloatArray, start: FloatArray, width: int, dtype: np.dtype[Any]
+    image: NDArray[Any], maps: LineMaps, width: int, dtype: np.dtype[Any]
 ) -> NDArray[Any]:
     """Every row of ``image``, resampled to ``width`` pixels; rows become columns."""
     count, length, channels = image.shape
@@ -86,7 +85,7 @@ def _resample(
     block = max(1, _BLOCK // max(width, length))
     for first in range(0, count, block):
         part = slice(first, first + block)
-        edges = edge_map(to[part], start[part], width, length)
+        edges = edge_map((maps[0][part], maps[1][part]), width, length)
         values = _means(np.asarray(image[part], _work(image.dtype)), edges)
         if dtype.kind == "u":
             values = np.clip(np.rint(values), 0, np.iinfo(dtype).max)

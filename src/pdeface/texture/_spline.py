@@ -11,7 +11,6 @@ seen in a warped picture.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -49,12 +48,12 @@ def coefficients(knots: Any, values: Any) -> FloatArray:
     return result
 
 
-def evaluate(knots: Any, values: Any, at: Any) -> FloatArray:
-    """Values of curves at the same or their own places, continued straight beyond their ends.
+def evaluate(knots: Any, polynomials: FloatArray, at: Any) -> FloatArray:
+    """Values of curves, each at its own or all at the same places.
 
     Args:
         knots: (..., n) increasing along the last axis.
-        values: (..., n).
+        polynomials: (..., n + 1, 4) as from :func:`coefficients`.
         at: (..., m) increasing along the last axis.
 
     Returns:
@@ -62,20 +61,13 @@ def evaluate(knots: Any, values: Any, at: Any) -> FloatArray:
     """
     knots, at = np.asarray(knots, float), np.asarray(at, float)
     result = None
-    for origin, polynomial in _pieces(knots, coefficients(knots, values)):
-        d = at - origin
-        c0, c1, c2, c3 = (polynomial[..., None, k] for k in range(4))
-        piece = ((c3 * d + c2) * d + c1) * d + c0
-        result = piece if result is None else np.where(d >= 0.0, piece, result)
+    for piece in range(polynomials.shape[-2]):
+        d = at - knots[..., max(piece - 1, 0), None]
+        c0, c1, c2, c3 = (polynomials[..., piece, k, None] for k in range(4))
+        values = ((c3 * d + c2) * d + c1) * d + c0
+        result = values if result is None else np.where(d >= 0.0, values, result)
     assert result is not None
     return np.asarray(result)
-
-
-def _pieces(knots: FloatArray, polynomials: FloatArray) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """Each piece from left to right, with the (..., 1) knot that it counts from."""
-    for piece in range(polynomials.shape[-2]):
-        knot = max(piece - 1, 0)
-        yield knots[..., knot, None], polynomials[..., piece, :]
 
 
 def _slopes(steps: FloatArray, secants: FloatArray) -> FloatArray:

@@ -74,23 +74,28 @@ def warp(
     two_pass = _two_pass(engine, height * width + pixels.shape[0] * pixels.shape[1])
 
     to_y, from_y = _meshes.column_knots(source, target, np.arange(0.5, width), names)
-    rows = _needed(to_y, from_y, height, pixels.shape[0])
+    vertical = _spline.coefficients(to_y, from_y)
+    rows = _needed(to_y, vertical, height, pixels.shape[0])
     y = np.arange(rows.start + 0.5, rows.stop)
     to_x, from_x = _meshes.row_knots(source, target, y, names)
-    columns = _needed(to_x, from_x, width, pixels.shape[1])
+    horizontal = _spline.coefficients(to_x, from_x)
+    columns = _needed(to_x, horizontal, width, pixels.shape[1])
 
-    horizontal = to_x, from_x - columns.start
-    vertical = to_y, from_y - rows.start
-    result = two_pass(pixels[rows, columns], horizontal, vertical, (height, width))
+    # From here on, positions count from the first row and column that are needed.
+    vertical[..., 0] -= rows.start
+    horizontal[..., 0] -= columns.start
+    part = pixels[rows, columns]
+    result = two_pass(part, (to_x, horizontal), (to_y, vertical), (height, width))
     return result.reshape(height, width, *np.shape(image)[2:])
 
 
-def _needed(to: FloatArray, start: FloatArray, width: int, length: int) -> slice:
-    """Which of ``length`` source pixels any output line reads, with two to spare on each side."""
-    ends = _spline.evaluate(to, start, np.array([0.0, width]))
-    first = int(np.clip(np.floor(ends[:, 0].min()) - 2, 0, length - 1))
-    last = int(np.clip(np.ceil(ends[:, 1].max()) + 2, first + 1, length))
-    return slice(first, last)
+def _needed(knots: FloatArray, polynomials: FloatArray, width: int, length: int) -> slice:
+    """Which of ``length`` source pixels the output lines read, and at least two on each side."""
+    before, behind = np.minimum(-knots[:, 0], 0.0), np.maximum(width - knots[:, -1], 0.0)
+    first = polynomials[:, 0, 0] + polynomials[:, 0, 1] * before
+    last = polynomials[:, -1, 0] + polynomials[:, -1, 1] * behind
+    low = int(np.clip(np.floor(first.min()) - 2, 0, length - 1))
+    return slice(low, int(np.clip(np.ceil(last.max()) + 2, low + 1, length)))
 
 
 def _two_pass(engine: Engine, pixels: int) -> Callable[..., NDArray[Any]]:

@@ -50,12 +50,13 @@ def figure1() -> Figure:
         "(b) the surface of Bloor and Wilson; (c) the surface through all four curves.",
         contact_sheet([panels], [captions]),
         agrees=[
-            "Four closed curves determine the surface; the solution is equations (2) to (8).",
+            "Four closed curves determine the surface; the solution is equations (2) to (8), with "
+            "N = 6 Fourier modes and the remainder, and a = 1.",
             "Bloor and Wilson's boundary conditions take the outer two curves as positions and "
             "the inner two as derivatives, and the surface then does not pass through all four: "
             f"it leaves the inner two by up to {1000 * missed:.1f} mm.",
             "Taking all four as positions makes the surface pass through every one of them "
-            f"(largest distance {1000 * met:.0e} mm): what the paper builds the face with.",
+            f"(distance at most {max(1000 * met, 1e-9):.0e} mm), which is what the face needs.",
         ],
         differs=[
             "The paper does not give the coordinates of its four curves; these are our own "

@@ -63,8 +63,8 @@ def figure3(face: Face) -> Figure:
             f"where its normal turns by up to {crease['patchwise']:.0f} degrees. A 28 by 41 mesh "
             "hides them, since all its rows lie on curves.",
             "(d) is new: the smooth join solves equation (1) between every two curves and asks "
-            "for continuous first and second derivatives across them (largest turn of the normal "
-            f"{crease['smooth']:.0e} degrees, the accuracy of the arithmetic).",
+            "for continuous first and second derivatives across them; its normal turns by "
+            f"{max(crease['smooth'], 1e-9):.0e} degrees at most.",
             "Inside a patch the exponents are those of u over the whole face, (a/9) n t for t "
             "from 0 to 1 across the patch; with a n t the surface would ripple between curves.",
         ],

@@ -44,6 +44,8 @@ def figure5(steps: UVTexture) -> Figure:
         agrees=[
             "A 7 by 7 mesh: 25 feature points in five rows of five, named and numbered as in the "
             "paper, and 24 nodes around them.",
+            "Points 22, 23 and 24 on the chin lie below the mouth's 17, 18 and 19, to within "
+            f"{_out_of_line(steps):.0f} % of the distance between the eyes.",
             "The 24 continue the rows and columns of the feature points outwards.",
             "Left and right are the subject's: the right eyebrow is on the left of the photo.",
         ],
@@ -53,6 +55,17 @@ def figure5(steps: UVTexture) -> Figure:
             "The portrait is the one bundled with this project; the paper's was not published.",
         ],
     )
+
+
+def _out_of_line(steps: UVTexture) -> float:
+    """How far points 22 to 24 are from straight below 17 to 19: per cent of the eyes' distance.
+
+    Straight below means square to the line through the eyes.
+    """
+    points = steps.points.array
+    across = points[1, 3] - points[1, 1]
+    offset = (points[4, 1:4] - points[3, 1:4]) @ across / (across @ across)
+    return 100.0 * float(np.abs(offset).max())
 
 
 def window_around(points: FloatArray, photo: Pixels, margin: float = 0.05) -> list[float]:

@@ -13,7 +13,7 @@ from pdeface.pictures.solid import Solid
 
 __all__ = ["CLAY", "shaded"]
 
-CLAY: Final = (0.74, 0.655, 0.585)
+CLAY: Final = (0.76, 0.665, 0.585)
 """Linear reflectance of the clay."""
 
 

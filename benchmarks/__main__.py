@@ -1,0 +1,11 @@
+"""Run every benchmark: ``python -m benchmarks``, or ``make bench``."""
+
+from __future__ import annotations
+
+from benchmarks import evaluation, startup, warp
+
+evaluation.main()
+print()
+startup.main()
+print()
+warp.main([])

@@ -1,0 +1,83 @@
+"""Curves whose surface comes nearest to given samples, by linear least squares.
+
+The surface is linear in the curve points and separates into Fourier modes along v and weights along
+u. Samples on a uniform grid keep the modes apart, so that the fit is one small K x K problem for
+each mode, whatever the level of detail.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.errors import InputError
+from pdeface.pde.fourier import analysis, synthesis, wave_numbers
+from pdeface.pde.rows import u_weights
+
+__all__ = ["fit_curves"]
+
+FloatArray = NDArray[np.float64]
+
+# The two end curves are the edge of the surface: rows of samples there count this much.
+EDGE_WEIGHT = 20.0
+# Damping of the modes grows with this power of their number, so that only the highest feel it:
+# a sharp feature would ring in them.
+DAMPING_POWER = 6
+
+
+def fit_curves(
+    samples: Any,
+    shape: tuple[int, int],
+    *,
+    a: float = 1.0,
+    modes: int = 6,
+    fairness: float = 5e-3,
+    damping: float = 1.0,
+) -> FloatArray:
+    """Data points of the closed curves whose smooth surface is nearest to samples.
+
+    Minimises the mean squared distance to the samples plus ``fairness`` times the squared second
+    differences of the curves across u, plus ``damping`` times the squared amplitude of mode n
+    times ``(n / n_max)^6``.
+
+    Args:
+        samples: (U, S, 3) positions on closed curves: row i at ``u = i / (U - 1)``, sample j at
+            ``v = (j + 1/2) 2 pi / S``.
+        shape: (K, M), curves and points on each; K <= U and M <= S.
+        a, modes: as for :class:`pdeface.pde.PDESurface`.
+        fairness: weight of the bending of the curves, per sample.
+        damping: weight of the highest mode, per sample.
+
+    Returns:
+        (K, M, 3) data points.
+
+    Raises:
+        InputError: fewer samples than data points.
+    """
+    samples = np.asarray(samples, dtype=np.float64)
+    rows, around = samples.shape[:2]
+    count, points = shape
+    if rows < count or around < points:
+        raise InputError(
+            f"to fit {count} x {points} data points at least as many samples are needed, "
+            f"got {rows} x {around}; sample more densely or ask for a coarser level"
+        )
+    waves = analysis(around)[:, : points // 2 + 1]
+    amplitudes = np.einsum("cnm,umx->cunx", waves, samples)
+    fitted = np.zeros((2, count, amplitudes.shape[2], 3))
+    row_weight = np.ones((rows, 1))
+    row_weight[[0, -1]] = EDGE_WEIGHT
+    bending = np.diff(np.eye(count), 2, axis=0)
+    w_of_mode = wave_numbers(points, a, modes)
+    for w in np.unique(w_of_mode):
+        across = u_weights(np.linspace(0.0, 1.0, rows), w, count)
+        normal = across.T @ (row_weight * across) + fairness * rows / count * bending.T @ bending
+        for mode in np.flatnonzero(w_of_mode == w):
+            high = damping * rows / count * (mode / (points / 2)) ** DAMPING_POWER
+            right = np.einsum("uk,cux->kcx", row_weight * across, amplitudes[:, :, mode])
+            solution = np.linalg.solve(normal + high * np.eye(count), right.reshape(count, -1))
+            fitted[:, :, mode] = solution.reshape(count, 2, 3).transpose(1, 0, 2)
+    v = (np.arange(points) + 0.5) * (2.0 * np.pi / points)
+    return np.asarray(np.einsum("cmn,cknx->kmx", synthesis(points, v), fitted))
