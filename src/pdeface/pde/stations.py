@@ -24,7 +24,7 @@ FloatArray = NDArray[np.float64]
 WORTHWHILE = 2.0
 
 # Stations to evaluate together: enough for an efficient product, few enough for the cache.
-GROUP = 24
+GROUP = 48
 
 
 class Run(NamedTuple):

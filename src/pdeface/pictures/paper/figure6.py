@@ -51,9 +51,9 @@ def figure6(steps: UVTexture) -> Figure:
         "(f) I_t with M_t.",
         contact_sheet(rows, CAPTIONS),
         agrees=[
-            "(b) The 28 by 41 grid is scaled so that both eye centres fall on their points of "
-            "the grid and the mouth corners on their horizontal; the other features miss "
-            f"theirs, by up to {_miss_before(steps):.0f} % of the distance between the eyes, "
+            "(b) The 28 by 41 grid is scaled so that both eye centres fall where the face has "
+            "them and the mouth corners on their horizontal; the other features miss their "
+            f"places, by up to {_miss_before(steps):.0f} % of the distance between the eyes, "
             "which is why a warp is needed.",
             "(f) After the two-pass mesh warp the 25 feature points lie where the uv mesh has "
             "them.",
