@@ -2,7 +2,7 @@
 
     python -m benchmarks.startup
 
-Each in an interpreter of its own, warm, in turns; medians.
+Each in an interpreter of its own, warm, in turns; medians, and medians of the differences.
 """
 
 from __future__ import annotations
@@ -27,12 +27,11 @@ COMMANDS = {
 def main() -> None:
     print(f"Start-up. {machine()}")
     samples = side_by_side(
-        {name: lambda c=command: run(c) for name, command in COMMANDS.items()}, seconds=10.0
+        {name: lambda c=command: run(c) for name, command in COMMANDS.items()}, seconds=20.0
     )
-    numpy = median(samples["import numpy"])
     for name, times in samples.items():
-        own = median(times)
-        print(f"  {name:<34}{1e3 * own:8.0f} ms{1e3 * (own - numpy):+8.0f} ms over numpy")
+        over = median(a - b for a, b in zip(times, samples["import numpy"], strict=True))
+        print(f"  {name:<34}{1e3 * median(times):8.0f} ms{1e3 * over:+8.0f} ms over numpy")
 
 
 def run(arguments: list[str]) -> None:

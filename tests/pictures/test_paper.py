@@ -12,7 +12,7 @@ from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.pictures.paper import PAGE, paper
 from pdeface.pictures.paper.figure1 import four_curves, largest_gap, surfaces
-from pdeface.pictures.paper.figure3 import largest_crease
+from pdeface.pictures.paper.figure3 import creases
 from pdeface.pictures.paper.figure5 import window_around
 from pdeface.pictures.paper.figure6 import largest_miss
 from pdeface.pictures.paper.overlay import Overlay, mesh_lines
@@ -72,8 +72,9 @@ def test_bloor_and_wilson_miss_two_curves_and_the_face_form_none() -> None:
 
 def test_the_patchwise_join_has_creases_and_the_smooth_one_none() -> None:
     face = Face(BoundaryCurves.from_half(head_points(28), 0.0))
-    assert largest_crease(face, "smooth") < 1e-5
-    assert largest_crease(face, "patchwise") > 0.05
+    assert creases(face, "smooth").max() < 1e-5
+    assert creases(face, "patchwise").max() > 0.05
+    assert creases(face, "patchwise").size == 8 * 181
 
 
 def test_the_grid_fits_eyes_and_mouth_and_misses_the_rest(steps: UVTexture) -> None:

@@ -11,6 +11,7 @@ seen in a warped picture.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -49,25 +50,32 @@ def coefficients(knots: Any, values: Any) -> FloatArray:
 
 
 def evaluate(knots: Any, polynomials: FloatArray, at: Any) -> FloatArray:
-    """Values of curves, each at its own or all at the same places.
+    """Values of any number of curves at the same places.
 
     Args:
         knots: (..., n) increasing along the last axis.
         polynomials: (..., n + 1, 4) as from :func:`coefficients`.
-        at: (..., m) increasing along the last axis.
+        at: (m,) increasing.
 
     Returns:
         (..., m) values.
     """
-    knots, at = np.asarray(knots, float), np.asarray(at, float)
-    result = None
-    for piece in range(polynomials.shape[-2]):
-        d = at - knots[..., max(piece - 1, 0), None]
-        c0, c1, c2, c3 = (polynomials[..., piece, k, None] for k in range(4))
-        values = ((c3 * d + c2) * d + c1) * d + c0
-        result = values if result is None else np.where(d >= 0.0, values, result)
-    assert result is not None
-    return np.asarray(result)
+    at = np.asarray(at, float)
+    knots = np.broadcast_to(knots, (*polynomials.shape[:-2], np.shape(knots)[-1]))
+    count, pieces = math.prod(knots.shape[:-1]), polynomials.shape[-2]
+    # Each knot begins a piece: counting those to the left of a place gives the piece it is on.
+    begins = np.searchsorted(at, knots).reshape(count, -1)
+    begins += np.arange(count)[:, None] * (len(at) + 1)
+    marks = np.bincount(begins.ravel(), minlength=count * (len(at) + 1))
+    piece = np.cumsum(marks.reshape(count, -1)[:, :-1], axis=1)
+    piece += np.arange(count)[:, None] * pieces
+    origins = np.concatenate([knots[..., :1], knots], axis=-1)
+    d = at - origins.reshape(-1)[piece]
+    flat = polynomials.reshape(-1, 4)
+    result = flat[:, 3][piece]
+    for power in (2, 1, 0):
+        result = result * d + flat[:, power][piece]
+    return np.asarray(result.reshape(*knots.shape[:-1], len(at)))
 
 
 def _slopes(steps: FloatArray, secants: FloatArray) -> FloatArray:

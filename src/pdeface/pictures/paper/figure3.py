@@ -13,7 +13,7 @@ from pdeface.pictures.paper.panels import PANEL, Figure
 from pdeface.pictures.picture import render
 from pdeface.pictures.sheet import contact_sheet
 
-__all__ = ["figure3", "creases"]
+__all__ = ["creases", "figure3"]
 
 FloatArray = NDArray[np.float64]
 
@@ -64,8 +64,9 @@ def figure3(face: Face) -> Figure:
             "(c) The paper calls the merge of its patches seamless. They share a curve but no "
             "tangent: on a dense mesh the patchwise surface has creases at curves 3, 6, ..., 24, "
             f"where its normal turns by {np.median(rough):.1f} degrees in the median and by "
-            f"{np.quantile(rough, 0.95):.0f} or more at one place in twenty. A 28 by 41 mesh hides "
-            "them, since all its rows lie on curves.",
+            f"{np.quantile(rough, 0.9):.0f} or more at one place in ten (most at the lids and "
+            "lips, where curves lie close together). A 28 by 41 mesh hides them, since all its "
+            "rows lie on curves.",
             "(d) is new: the smooth join solves equation (1) between every two curves and asks "
             "for continuous first and second derivatives across them; its normal turns by "
             f"{max(fair.max(), 1e-9):.0e} degrees at most.",
