@@ -17,8 +17,8 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 # An environment holds its own place in its scripts; one that was moved or copied is made anew.
 PLACE := $(VENV)/place
-ifneq ($(shell cat $(PLACE) 2>/dev/null || pwd),$(CURDIR))
-$(shell rm -rf $(VENV))
+ifneq ($(shell cat $(PLACE) 2>/dev/null || pwd -P),$(CURDIR))
+.PHONY: $(PY) $(VENV)/demo.stamp $(VENV)/test.stamp $(VENV)/node.stamp
 endif
 
 help:
@@ -35,11 +35,11 @@ $(PY):
 
 $(VENV)/demo.stamp: pyproject.toml | $(PY)
 	$(PY) -m pip install --quiet --editable '.[all]'
-	@pwd > $(PLACE); touch $@
+	@pwd -P > $(PLACE); touch $@
 
 $(VENV)/test.stamp: pyproject.toml | $(PY)
 	$(PY) -m pip install --quiet --editable '.[dev]'
-	@pwd > $(PLACE); touch $@ $(VENV)/demo.stamp
+	@pwd -P > $(PLACE); touch $@ $(VENV)/demo.stamp
 
 # Where there is no Node.js, pip brings one: the glTF validator of the Khronos Group runs on it.
 $(VENV)/node.stamp: | $(VENV)/test.stamp

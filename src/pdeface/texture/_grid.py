@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
+from pdeface.texture._front import Front
 from pdeface.texture._point_checks import NAMES, POINT_NAMES, check_names
 from pdeface.texture.points import FeaturePoints
 
@@ -20,15 +21,11 @@ __all__ = [
     "check_targets",
     "fit_grid",
     "source_mesh",
-    "target_mesh",
+    "texels",
+    "uv_nodes",
 ]
 
 FloatArray = NDArray[np.float64]
-
-SEEN_FROM_THE_SIDE = 0.4
-"""Width in a frontal photo of the face's outermost strips, as a part of what the scaled grid says.
-
-The grid is level; the face turns away from the camera towards the ears and under the chin."""
 
 NODE_NAMES: tuple[tuple[str, ...], ...] = (
     ("a corner", *(f"the node above {name}" for name in POINT_NAMES[0]), "a corner"),
@@ -100,54 +97,57 @@ def fit_grid(points: FeaturePoints, uv: FloatArray) -> ScaledGrid:
     return ScaledGrid(corner, across, down)
 
 
-def source_mesh(points: FeaturePoints, grid: ScaledGrid, uv: FloatArray) -> FloatArray:
+def source_mesh(points: FeaturePoints, mesh: FloatArray, front: Front) -> FloatArray:
     """Step 2: the source mesh, 25 feature points and 24 nodes around them.
 
-    The paper puts the 24 on the border of the photo, where they would draw hair and background
-    on to the sides of the face. Here they continue the rows and columns of feature points to
-    the border of the scaled grid instead: upwards by what the grid says lies above the brows;
-    to the sides and below by 0.4 of it, because there the face turns away from the camera.
+    The paper puts the 24 on the border of the photo, straight beyond the feature points, where
+    they would draw background on to the sides of the face. Here they lie as far beyond as the
+    neutral face reaches beyond its own feature points, seen from the front.
+
+    Args:
+        points: feature points of the photo.
+        mesh: (7, 7, 2) the nodes as (u, v), from :func:`uv_nodes`.
+        front: the face seen from the front.
 
     Returns:
         (7, 7, 2) pixel positions in the photo.
     """
-    per_v, per_u = np.linalg.norm(grid.across), np.linalg.norm(grid.down)
     level = np.zeros((7, 7, 2))
-    inner = level[1:-1, 1:-1] = points.upright()
-    level[1:-1, 0] = inner[:, 0]
-    level[1:-1, -1] = inner[:, -1]
-    level[1:-1, 0, 0] -= SEEN_FROM_THE_SIDE * per_v * uv[:, 0, 1]
-    level[1:-1, -1, 0] += SEEN_FROM_THE_SIDE * per_v * (np.pi - uv[:, -1, 1])
-    level[0, 1:-1] = inner[0]
-    level[-1, 1:-1] = inner[-1]
-    level[0, 1:-1, 1] -= per_u * uv[0, :, 0]
-    level[-1, 1:-1, 1] += SEEN_FROM_THE_SIDE * per_u * (1.0 - uv[-1, :, 0])
-    for row, column in ((0, 0), (0, -1), (-1, 0), (-1, -1)):
-        beside, above = level[row or 1, column], level[row, column or 1]
-        if row:
-            beside = level[-2, column]
-        if column:
-            above = level[row, -2]
-        level[row, column] = beside[0], above[1]
+    level[1:-1, 1:-1] = points.upright()
+    seen = front(mesh[..., 0], mesh[..., 1])
+    inner = seen[1:-1, 1:-1]
+    spread = level[1:-1, 1:-1] - level[1:-1, 1:-1].mean(axis=(0, 1))
+    own = inner - inner.mean(axis=(0, 1))
+    scale = (spread * own).sum(axis=(0, 1)) / (own * own).sum(axis=(0, 1))
+    nearest = np.clip(np.arange(7), 1, 5)
+    near = np.ix_(nearest, nearest)
+    beyond = (seen - seen[near]) * scale
+    # Straight beyond, as in the paper: slanting rows and columns could fold.
+    beyond[:, 1:-1, 0] = beyond[1:-1, :, 1] = 0.0
+    level = level[near] + beyond
+    across = np.array([math.cos(points.tilt), math.sin(points.tilt)])
+    down = np.array([-across[1], across[0]])
     middle = points.array[1, [1, 3]].mean(axis=0)
-    across, down = grid.across / per_v, grid.down / per_u
     return np.asarray(middle + level[..., :1] * across + level[..., 1:] * down)
 
 
-def target_mesh(uv: FloatArray, shape: tuple[int, int]) -> FloatArray:
+def uv_nodes(uv: FloatArray) -> FloatArray:
     """Step 3: the target mesh, read off the uv mesh.
 
     Args:
         uv: (5, 5, 2) where the face has the feature points, as from :func:`check_targets`.
-        shape: (height, width) of the texture.
 
     Returns:
-        (7, 7, 2) texel positions: column ``v / pi`` of the width and row ``u`` of the height,
-        with the 24 outer nodes on the texture's border, straight beyond the feature points.
+        (7, 7, 2) values (u, v): the feature points, and 24 outer nodes straight beyond them on
+        the border of the uv mesh.
     """
-    nodes = np.zeros((7, 7, 2))
-    nodes[1:-1, 1:-1] = uv[..., ::-1] / (np.pi, 1.0)
-    nodes[:, -1, 0] = nodes[-1, :, 1] = 1.0
-    nodes[1:-1, 0, 1], nodes[1:-1, -1, 1] = uv[:, 0, 0], uv[:, -1, 0]
-    nodes[0, 1:-1, 0], nodes[-1, 1:-1, 0] = uv[0, :, 1] / np.pi, uv[-1, :, 1] / np.pi
-    return np.asarray(nodes * (shape[1], shape[0]))
+    nearest = np.clip(np.arange(7), 1, 5) - 1
+    nodes = uv[np.ix_(nearest, nearest)].copy()
+    nodes[0, :, 0], nodes[-1, :, 0] = 0.0, 1.0
+    nodes[:, 0, 1], nodes[:, -1, 1] = 0.0, np.pi
+    return nodes
+
+
+def texels(uv: FloatArray, shape: tuple[int, int]) -> FloatArray:
+    """(..., 2) texel positions (x, y) in a texture of (height, width) of points (u, v)."""
+    return np.asarray(uv[..., ::-1] * (shape[1] / np.pi, shape[0]))

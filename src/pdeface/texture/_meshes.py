@@ -94,10 +94,8 @@ def row_knots(
     Raises:
         InputError: two curves cross between their nodes.
     """
-    height = source[..., 1].T
-    curves = _spline.coefficients(height, np.stack([target[..., 0].T, source[..., 0].T]))
-    ends = _spline.evaluate(height, curves, rows)
-    _check_curves(ends, rows, height, "columns", names)
+    across = np.stack([target[..., 0].T, source[..., 0].T])
+    ends = _crossings(source[..., 1].T, across, rows, "columns", names)
     return ends[0].T, ends[1].T
 
 
@@ -117,35 +115,68 @@ def column_knots(
     Raises:
         InputError: two curves cross between their nodes.
     """
-    across = target[..., 0]
-    curves = _spline.coefficients(across, np.stack([target[..., 1], source[..., 1]]))
-    ends = _spline.evaluate(across, curves, columns)
-    _check_curves(ends, columns, across, "rows", names)
+    down = np.stack([target[..., 1], source[..., 1]])
+    ends = _crossings(target[..., 0], down, columns, "rows", names)
     return ends[0].T, ends[1].T
 
 
-def _check_curves(
-    ends: FloatArray, at: FloatArray, nodes_at: FloatArray, lines: str, names: Names
-) -> None:
-    """Refuse curves of neighbouring nodes that cross between the nodes.
+def _crossings(
+    nodes_at: FloatArray, values: FloatArray, at: FloatArray, lines: str, names: Names
+) -> FloatArray:
+    """Where mesh lines cross image lines: (2, curves, n), increasing along the second axis.
 
     Args:
-        ends: (2, curves, n) positions of the target's and the source's curves.
-        at: (n,) the coordinate along the curves.
-        nodes_at: (curves, nodes) that coordinate at the nodes.
+        nodes_at: (curves, nodes) coordinate along the curves, at their nodes.
+        values: (2, curves, nodes) the other coordinate, in the target and in the source.
+        at: (n,) coordinate of the image lines.
+        lines: what the curves are, for messages.
+        names: of the nodes, for messages.
     """
-    bad = np.argwhere(np.diff(ends, axis=1) < _CLOSEST)
-    if not len(bad):
-        return
-    mesh, curve, line = bad[0]
-    node = int(np.argmin(np.abs(nodes_at[curve] - at[line])))
-    if lines == "columns":
-        first, second = node_name(node, curve, names), node_name(node, curve + 1, names)
-    else:
-        first, second = node_name(curve, node, names), node_name(curve + 1, node, names)
-    raise InputError(
-        f"{lines} of the {('target', 'source')[mesh]} mesh must not cross, but those through "
-        f"{first} and {second} do; move one of these points away from the other"
+    ends = _spline.evaluate(nodes_at, _spline.coefficients(nodes_at, values), at)
+    tight = (np.diff(ends, axis=1) < _CLOSEST).any(axis=(0, 1))
+    own = (at >= nodes_at[:, :1]) & (at <= nodes_at[:, -1:])
+    for line in np.flatnonzero(tight):
+        curves = np.flatnonzero(own[:, line])
+        for mesh, kind in enumerate(("target", "source")):
+            found = ends[mesh, :, line]
+            crossed = np.flatnonzero(np.diff(found[curves]) < _CLOSEST)
+            if len(crossed):
+                pair = curves[crossed[0] : crossed[0] + 2]
+                nodes = [int(np.argmin(np.abs(nodes_at[c] - at[line]))) for c in pair]
+                raise _crossing_error(kind, lines, list(zip(pair, nodes, strict=True)), names)
+            _part(found, curves)
+    return ends
+
+
+def _part(positions: FloatArray, own: NDArray[np.intp]) -> None:
+    """Part curves that were continued beyond their nodes and met another there, in place.
+
+    No pixel is read off these, but the map of the whole line hangs on their order.
+
+    Args:
+        positions: (curves,) where they cross the line.
+        own: which of them cross it between their nodes, at least one in a mesh that covers it.
+    """
+    count = len(positions)
+    if len(own):
+        between = np.arange(own[0], own[-1] + 1)
+        positions[between] = np.interp(between, own, positions[own])
+    first, last = (own[0], own[-1]) if len(own) else (count, 0)
+    for k in range(last + 1, count):
+        positions[k] = max(positions[k], positions[k - 1] + 2.0 * _CLOSEST)
+    for k in range(min(first, count) - 1, -1, -1):
+        if k + 1 < count and first < count:
+            positions[k] = min(positions[k], positions[k + 1] - 2.0 * _CLOSEST)
+
+
+def _crossing_error(kind: str, lines: str, pair: list[tuple[int, int]], names: Names) -> InputError:
+    first, second = (
+        node_name(node, curve, names) if lines == "columns" else node_name(curve, node, names)
+        for curve, node in pair
+    )
+    return InputError(
+        f"{lines} of the {kind} mesh must not cross, but those through {first} and {second} do; "
+        "move one of these points away from the other"
     )
 
 

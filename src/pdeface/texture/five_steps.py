@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from pdeface.errors import InputError
 from pdeface.texture import _finish, _grid
+from pdeface.texture._front import Front, neutral_front, refine
 from pdeface.texture._grid import ScaledGrid
 from pdeface.texture._upright import set_upright
 from pdeface.texture.points import FeaturePoints
@@ -27,6 +28,8 @@ __all__ = ["UVTexture", "uv_texture"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
+
+PARTS = 6
 
 _SMALLEST, _LARGEST, _STEP = 512, 4096, 16
 
@@ -71,6 +74,7 @@ def uv_texture(
     *,
     finish: bool = True,
     engine: Engine = "auto",
+    front: Front = neutral_front,
 ) -> UVTexture:
     """Turn a frontal photo into a texture for the uv mesh, by the paper's five steps.
 
@@ -101,10 +105,13 @@ def uv_texture(
     photo, points = set_upright(photo, points, engine)
 
     grid = _grid.fit_grid(points, uv)
-    source = _grid.source_mesh(points, grid, uv)
+    nodes = _grid.uv_nodes(uv)
+    source = _grid.source_mesh(points, nodes, front)
     shape = _check_size(size) if size else _size_for(source, uv)
-    target = _grid.target_mesh(uv, shape)
-    warped = _warp_marked(photo, source, target, shape, engine)
+    target = _grid.texels(nodes, shape)
+    fine_source, fine_uv = refine(source, nodes, front, PARTS)
+    fine_target = _grid.texels(fine_uv, shape)
+    warped = _warp_marked(photo, fine_source, fine_target, shape, engine)
     weights = _finish.trust(target, shape) if finish else np.ones(shape)
     texture = _finish.finish(warped, weights, engine)
     return UVTexture(texture, warped[..., :3], photo, points, grid, uv, source, target)
@@ -126,7 +133,7 @@ def _warp_marked(
         # Beyond its border an image repeats its last pixels: a transparent border is enough.
         photo = np.pad(photo, ((2, 2), (2, 2), (0, 0)))
         source = source + 2.0
-    return warp(photo, source, target, shape, engine=engine, names=_grid.NODE_NAMES)
+    return warp(photo, source, target, shape, engine=engine)
 
 
 def _with_alpha(photo: Pixels) -> Pixels:
