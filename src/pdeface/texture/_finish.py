@@ -7,41 +7,44 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.texture import _spline
 from pdeface.texture._fill import extend
+from pdeface.texture._lattice import outline
 from pdeface.texture.warp import Engine, warp
 
 __all__ = ["finish", "trust"]
 
 FloatArray = NDArray[np.float64]
 
-INSET, FADE = 0.015, 0.07
+INSET, FADE = 0.03, 0.07
 """Where the outline's pixels stop being trusted, and over what width, as parts of the texture."""
 
 _COARSE = 256
 
 
-def trust(target: FloatArray, shape: tuple[int, int]) -> FloatArray:
+def trust(uv: FloatArray, shape: tuple[int, int]) -> FloatArray:
     """How far each texel can be trusted to show the face.
 
     1 inside the outline that the outer feature points draw (the sides of the face from the brows
-    to the chin, and the chin), falling smoothly to 0 on it. There is no limit above.
+    to the chin, and the chin), falling smoothly to 0 on it. There is no limit above, and the
+    outline widens to the whole face above the brows: what a photo shows beside the forehead is
+    the hair that belongs there.
 
     Args:
-        target: (7, 7, 2) target mesh, texels.
+        uv: (5, 5, 2) the feature points on the face.
         shape: (height, width) of the texture.
 
     Returns:
         (height, width) weights in [0, 1].
     """
     height, width = shape
-    x, y = np.arange(0.5, width), np.arange(0.5, height)
+    u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
+    right, left, chin = outline(uv, u, v)
     right, left = (
-        _hold(target[1:-1, column, 1], target[1:-1, column, 0], y)[:, None] for column in (1, -2)
+        edge + np.clip(2.0 - 2.0 * u / uv[0, column, 0], 0.0, 1.0) * (border - edge)
+        for edge, column, border in ((right, 0, -0.1), (left, -1, np.pi + 0.1))
     )
-    below = _hold(target[-2, 1:-1, 0], target[-2, 1:-1, 1], x)[None, :]
-    sides = _fade((x - right) / width) * _fade((left - x) / width)
-    return np.asarray(sides * _fade((below - y[:, None]) / height))
+    sides = _fade((v - right[:, None]) / np.pi) * _fade((left[:, None] - v) / np.pi)
+    return np.asarray(sides * _fade(chin - u[:, None]))
 
 
 def finish(
@@ -77,12 +80,6 @@ def finish(
     guess = resized(extend(coarse, np.clip(small[..., 0], 0.0, 1.0)), (height, width))
     result = known * colours + (1.0 - known) * guess
     return np.asarray(np.clip(np.rint(result), 0, 255), dtype=np.uint8)
-
-
-def _hold(knots: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
-    """A curve through points, level beyond its ends."""
-    curve = _spline.coefficients(knots, values)
-    return _spline.evaluate(knots, curve, np.clip(at, knots[0], knots[-1]))
 
 
 def _fade(inside: FloatArray) -> FloatArray:

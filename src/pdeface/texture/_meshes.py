@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from pdeface.errors import InputError
 from pdeface.texture import _spline
 
-__all__ = ["check_mesh", "check_meshes", "column_knots", "row_knots"]
+__all__ = ["check_mesh", "check_meshes", "column_knots", "map_points", "row_knots"]
 
 FloatArray = NDArray[np.float64]
 Names = Sequence[Sequence[str]] | None
@@ -118,6 +118,42 @@ def column_knots(
     down = np.stack([target[..., 1], source[..., 1]])
     ends = _crossings(target[..., 0], down, columns, "rows", names)
     return ends[0].T, ends[1].T
+
+
+def map_points(
+    source: FloatArray, target: FloatArray, points: FloatArray, names: Names = None
+) -> FloatArray:
+    """Where in the source image the two-pass warp takes points of the target image from.
+
+    Args:
+        source: (R, C, 2) source mesh.
+        target: (R, C, 2) target mesh.
+        points: (n, 2) positions in the target image.
+        names: of the nodes, for messages.
+
+    Returns:
+        (n, 2) positions in the source image.
+
+    Raises:
+        InputError: a mesh is folded.
+    """
+    source, target = check_meshes(source, target, names)
+    order = np.argsort(points[:, 0])
+    knots = column_knots(source, target, points[order, 0], names)
+    y = _at_own_place(*knots, points[order, 1])
+    again = np.argsort(y)
+    order = order[again]
+    knots = row_knots(source, target, y[again], names)
+    result = np.empty_like(points)
+    result[order, 0] = _at_own_place(*knots, points[order, 0])
+    result[order, 1] = y[again]
+    return result
+
+
+def _at_own_place(knots: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
+    """(n,) values of n curves (n, nodes), each at a place of its own."""
+    shifted = knots - at[:, None]
+    return _spline.evaluate(shifted, _spline.coefficients(shifted, values), np.zeros(1))[:, 0]
 
 
 def _crossings(

@@ -14,8 +14,10 @@ from pdeface.errors import InputError
 
 __all__ = [
     "NAMES",
+    "OPTIONAL_NAMES",
     "POINT_NAMES",
     "check_inside",
+    "check_lips",
     "check_names",
     "check_order",
     "check_position",
@@ -54,19 +56,30 @@ POINT_NAMES: tuple[tuple[str, ...], ...] = (
 
 NAMES = tuple(name for row in POINT_NAMES for name in row)
 
+OPTIONAL_NAMES = ("upper_lip", "lower_lip")
+"""For an open mouth: the middle of the upper lip's lower edge, and of the lower lip's upper edge.
+
+Not in the paper, whose photo has a closed mouth."""
+
 
 def check_names(given: Mapping[str, object]) -> None:
     """Refuse missing and unknown names."""
+    known = (*NAMES, *OPTIONAL_NAMES)
     for name in given:
-        if name not in NAMES:
-            close = difflib.get_close_matches(str(name), NAMES, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"the names are {', '.join(NAMES)}"
+        if name not in known:
+            close = difflib.get_close_matches(str(name), known, n=1)
+            hint = f"did you mean {close[0]}?" if close else f"the names are {', '.join(known)}"
             raise InputError(f"{name!r} is not one of the 25 feature points; {hint}")
     missing = [name for name in NAMES if name not in given]
     if missing:
         others = f" (and {len(missing) - 1} more)" if len(missing) > 1 else ""
         raise InputError(
             f"all 25 feature points are needed, {missing[0]}{others} is missing; place it"
+        )
+    lips = [name for name in OPTIONAL_NAMES if name in given]
+    if len(lips) == 1:
+        raise InputError(
+            f"{' and '.join(OPTIONAL_NAMES)} go together, got only {lips[0]}; place or remove both"
         )
 
 
@@ -134,3 +147,12 @@ def check_order(upright: FloatArray) -> None:
                 f"must lie {side} {POINT_NAMES[row][column]} (with the eyes level); "
                 "move one of them, or swap them"
             )
+
+
+def check_lips(upper: float, centre: float, lower: float) -> None:
+    """Refuse an open mouth whose centre is not between the lips, by their heights downwards."""
+    if not upper <= centre <= lower:
+        raise InputError(
+            "mouth_centre must lie between upper_lip and lower_lip (with the eyes level), below "
+            "the one and above the other; move it, or remove both where the mouth is closed"
+        )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from pdeface.texture.warp import Engine, warp
 
 __all__ = ["MOST_TILT", "set_upright"]
 
-MOST_TILT = math.radians(15.0)
+MOST_TILT = math.radians(5.0)
 """Up to here the warp undoes the tilt itself, and the photo is resampled once, not twice."""
 
 
@@ -28,9 +29,7 @@ def set_upright(
     for _ in range(quarters):
         height, width = photo.shape[:2]
         photo = np.rot90(photo)
-        array = points.array
-        array = np.stack([array[..., 1], width - array[..., 0]], axis=-1)
-        points = FeaturePoints.from_array(array, (height, width))
+        points = points.moved(partial(_quarter, width=width), (height, width))
     if abs(points.tilt) > MOST_TILT:
         photo, points = _turn(photo, points, engine)
     return photo, points
@@ -50,5 +49,10 @@ def _turn(
     frame = np.stack([x, y], axis=-1)
     mesh = (frame - new_middle) @ turn.T + old_middle
     turned = warp(photo, mesh, frame, (new_height, new_width), engine=engine)
-    array = (points.array - old_middle) @ turn + new_middle
-    return turned, FeaturePoints.from_array(array, (new_width, new_height))
+    size = new_width, new_height
+    return turned, points.moved(lambda p: (p - old_middle) @ turn + new_middle, size)
+
+
+def _quarter(positions: NDArray[np.float64], width: int) -> NDArray[np.float64]:
+    """Positions in an image of that width, turned anticlockwise with it by a quarter."""
+    return np.stack([positions[:, 1], width - positions[:, 0]], axis=-1)

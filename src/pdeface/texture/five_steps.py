@@ -17,9 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
+from pdeface.images import MAX_SIDE
 from pdeface.texture import _finish, _grid
-from pdeface.texture._front import Front, neutral_front, refine
+from pdeface.texture._front import neutral_front, straight_front
 from pdeface.texture._grid import ScaledGrid
+from pdeface.texture._lattice import lattice_names, photo_lattice
 from pdeface.texture._upright import set_upright
 from pdeface.texture.points import FeaturePoints
 from pdeface.texture.warp import Engine, warp
@@ -28,8 +30,6 @@ __all__ = ["UVTexture", "uv_texture"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
-
-PARTS = 6
 
 _SMALLEST, _LARGEST, _STEP = 512, 4096, 16
 
@@ -40,14 +40,15 @@ class UVTexture:
 
     Attributes:
         image: (H, W, 3) uint8, step 5: row ``u H``, column ``v W / pi``, the whole face.
-        warped: (H, W, 3) uint8, step 4: before its edge was finished.
+        warped: (H, W, 3) uint8: the same before its edge was finished; black where the photo has
+            nothing.
         photo: (h, w, 3 or 4) uint8 that the meshes lie on: the given photo, or a turned copy
-            if the head was tilted by more than 15 degrees.
+            if the head was tilted by more than 5 degrees.
         points: the feature points in ``photo``.
-        grid: the scaled uv grid in ``photo``, step 1.
+        grid: the scaled uv grid on ``photo``, step 1.
         targets: (5, 5, 2) values (u, v) of the feature points.
         source_mesh: (7, 7, 2) M_s, pixels of ``photo``, step 2.
-        target_mesh: (7, 7, 2) M_t, texels of ``image``, step 3.
+        target_mesh: (7, 7, 2) M_t, pixels as well, step 3: where the grid has the points.
     """
 
     image: Pixels
@@ -59,10 +60,22 @@ class UVTexture:
     source_mesh: FloatArray
     target_mesh: FloatArray
 
-    def uv_nodes(self, rows: int = 28, columns: int = 41) -> FloatArray:
-        """(rows, columns, 2) texel positions of the uv mesh's nodes, Fig. 6(e)."""
+    def target_image(self) -> Pixels:
+        """(h, w, 3 or 4) I_t, step 4 as the paper shows it: the photo warped on to the grid.
+
+        The grid's nodes can be read off it, as in Fig. 6(d) to (f). ``image`` is made without this
+        step between, so that the photo is resampled once.
+        """
+        height, width = self.photo.shape[:2]
+        meshes = (
+            _with_border(mesh, width, height) for mesh in (self.source_mesh, self.target_mesh)
+        )
+        return warp(self.photo, *meshes)
+
+    def texel(self, u: Any, v: Any) -> FloatArray:
+        """(..., 2) positions (x, y) in ``image`` of points (u, v), texels from its corner."""
         height, width = self.image.shape[:2]
-        x, y = np.meshgrid(np.linspace(0.0, width, columns), np.linspace(0.0, height, rows))
+        x, y = np.broadcast_arrays(np.asarray(v) * (width / np.pi), np.asarray(u) * float(height))
         return np.stack([x, y], axis=-1)
 
 
@@ -73,16 +86,23 @@ def uv_texture(
     targets: Mapping[str, tuple[float, float]] | None = None,
     *,
     finish: bool = True,
+    follow_face: bool = True,
     engine: Engine = "auto",
-    front: Front = neutral_front,
 ) -> UVTexture:
     """Turn a frontal photo into a texture for the uv mesh, by the paper's five steps.
 
-    Differences from the paper: the head's tilt is undone first, by the line through the eyes;
-    the outer nodes of M_s lie near the face's outline instead of on the photo's border, and the
-    texture's edge is finished, both because a frontal photo has background, hair and ears where
-    the texture needs the sides of the face; and the texture is cut to the uv mesh, so that its
-    texture coordinates are simply (v / pi, u).
+    What differs from the paper, and why:
+
+    - The head's tilt is undone first, by the line through the eyes.
+    - The grid of step 1 is the neutral face's uv mesh seen from the front, not a straight one: its
+      rows and columns are not evenly spaced on the face, so that a straight grid is right at the
+      feature points and nowhere else.
+    - The outer nodes of the warp meshes lie on the border of the face, not of the photo, and the
+      texture's edge is finished: beside the face a photo shows background, hair and ears.
+    - If the mouth is open (the points ``upper_lip`` and ``lower_lip`` say so), what shows between
+      the lips is left out of them, because the face's mouth is closed.
+    - The photo is resampled once, straight to the uv mesh, so that the texture coordinates are
+      simply (v / pi, u).
 
     Args:
         image: (h, w), (h, w, 3) or (h, w, 4) uint8; transparent pixels count as unknown.
@@ -92,6 +112,7 @@ def uv_texture(
         targets: (u, v) of each feature point on the face; those of the template by default.
         finish: whether to fade the texture's edge, from the face's outline outwards, into the
             skin's colour. Without it the photo's pixels there are stretched to the edge.
+        follow_face: whether the grid of step 1 is the neutral face's; if not, it is straight.
         engine: as for :func:`pdeface.texture.warp`.
 
     Raises:
@@ -104,21 +125,35 @@ def uv_texture(
     uv = _grid.check_targets(targets or _template_targets())
     photo, points = set_upright(photo, points, engine)
 
-    grid = _grid.fit_grid(points, uv)
-    nodes = _grid.uv_nodes(uv)
-    source = _grid.source_mesh(points, nodes, front)
-    shape = _check_size(size) if size else _size_for(source, uv)
-    target = _grid.texels(nodes, shape)
-    fine_source, fine_uv = refine(source, nodes, front, PARTS)
-    fine_target = _grid.texels(fine_uv, shape)
-    warped = _warp_marked(photo, fine_source, fine_target, shape, engine)
-    weights = _finish.trust(target, shape) if finish else np.ones(shape)
+    grid = _grid.fit_grid(points, uv, neutral_front if follow_face else straight_front)
+    source, target = _grid.warp_meshes(points, uv, grid)
+    shape = _check_size(size) if size else _size_for(points.array, uv)
+    places, lattice = photo_lattice(source, target, uv, grid, points.opening())
+    texels = lattice[..., ::-1] * (shape[1] / np.pi, shape[0])
+    warped = _warp_marked(photo, places, texels, shape, engine, lattice_names(uv))
+    weights = _finish.trust(uv, shape) if finish else np.ones(shape)
     texture = _finish.finish(warped, weights, engine)
-    return UVTexture(texture, warped[..., :3], photo, points, grid, uv, source, target)
+    meshes = grid.to_photo(source), grid.to_photo(target)
+    return UVTexture(texture, warped[..., :3], photo, points, grid, uv, *meshes)
+
+
+def _with_border(mesh: FloatArray, width: float, height: float) -> FloatArray:
+    """(9, 9, 2) the mesh and, around it, nodes on the photo's border, straight beyond its own."""
+    bordered = np.pad(mesh, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    bordered[:, 0, 0] = min(0.0, mesh[..., 0].min() - 1.0)
+    bordered[:, -1, 0] = max(width, mesh[..., 0].max() + 1.0)
+    bordered[0, :, 1] = min(0.0, mesh[..., 1].min() - 1.0)
+    bordered[-1, :, 1] = max(height, mesh[..., 1].max() + 1.0)
+    return bordered
 
 
 def _warp_marked(
-    photo: Pixels, source: FloatArray, target: FloatArray, shape: tuple[int, int], engine: Engine
+    photo: Pixels,
+    source: FloatArray,
+    target: FloatArray,
+    shape: tuple[int, int],
+    engine: Engine,
+    names: list[list[str]],
 ) -> Pixels:
     """Step 4; with alpha (and colours multiplied by it) if some of the photo is unknown.
 
@@ -133,7 +168,7 @@ def _warp_marked(
         # Beyond its border an image repeats its last pixels: a transparent border is enough.
         photo = np.pad(photo, ((2, 2), (2, 2), (0, 0)))
         source = source + 2.0
-    return warp(photo, source, target, shape, engine=engine)
+    return warp(photo, source, target, shape, engine=engine, names=names)
 
 
 def _with_alpha(photo: Pixels) -> Pixels:
@@ -145,11 +180,10 @@ def _with_alpha(photo: Pixels) -> Pixels:
     return np.concatenate([colours, photo[..., 3:]], axis=2)
 
 
-def _size_for(source: FloatArray, uv: FloatArray) -> tuple[int, int]:
+def _size_for(points: FloatArray, uv: FloatArray) -> tuple[int, int]:
     """(height, width) at which no part of the face, as seen in the photo, loses pixels."""
-    inner = source[1:-1, 1:-1]
-    wide = np.linalg.norm(np.diff(inner, axis=1), axis=-1) / np.diff(uv[..., 1], axis=1) * np.pi
-    high = np.linalg.norm(np.diff(inner, axis=0), axis=-1) / np.diff(uv[..., 0], axis=0)
+    wide = np.linalg.norm(np.diff(points, axis=1), axis=-1) / np.diff(uv[..., 1], axis=1) * np.pi
+    high = np.linalg.norm(np.diff(points, axis=0), axis=-1) / np.diff(uv[..., 0], axis=0)
     sides = (int(np.ceil(side.max() / _STEP)) * _STEP for side in (high, wide))
     height, width = (min(max(side, _SMALLEST), _LARGEST) for side in sides)
     return height, width
@@ -173,10 +207,8 @@ def _check_size(size: Any) -> tuple[int, int]:
         height, width = (int(side) for side in size)
     except (TypeError, ValueError):
         height = width = 0
-    if not (2 <= height <= 2 * _LARGEST and 2 <= width <= 2 * _LARGEST):
-        raise InputError(
-            f"size must be (height, width), each from 2 to {2 * _LARGEST}, got {size!r}"
-        )
+    if not (2 <= height <= MAX_SIDE and 2 <= width <= MAX_SIDE):
+        raise InputError(f"size must be (height, width), each from 2 to {MAX_SIDE}, got {size!r}")
     return height, width
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from pdeface import files
 from pdeface.errors import InputError
 from pdeface.texture import _point_checks, _points_file
-from pdeface.texture._point_checks import NAMES, POINT_NAMES
+from pdeface.texture._point_checks import NAMES, OPTIONAL_NAMES, POINT_NAMES
 
 __all__ = ["POINT_NAMES", "FeaturePoints"]
 
@@ -32,7 +32,8 @@ class FeaturePoints:
     the subject's: in a photo the right eye is on the left-hand side.
 
     Attributes:
-        positions: (x, y) of each of the names in ``POINT_NAMES``.
+        positions: (x, y) of each of the names in ``POINT_NAMES``; for an open mouth also of
+            ``upper_lip`` and ``lower_lip``, the middle of the edges between which teeth show.
         image_size: (width, height) of the photo that they were placed on.
 
     Raises:
@@ -45,7 +46,8 @@ class FeaturePoints:
     def __post_init__(self) -> None:
         given = dict(self.positions)
         _point_checks.check_names(given)
-        ordered = {name: _point_checks.check_position(name, given[name]) for name in NAMES}
+        names = [*NAMES, *(name for name in OPTIONAL_NAMES if name in given)]
+        ordered = {name: _point_checks.check_position(name, given[name]) for name in names}
         object.__setattr__(self, "positions", MappingProxyType(ordered))
         object.__setattr__(self, "image_size", _point_checks.check_size(self.image_size))
 
@@ -115,7 +117,15 @@ class FeaturePoints:
                 f"{self.image_size[1]} pixels, this one has {width} x {height}, which is another "
                 "shape; use the photo they belong to, or place them anew"
             )
-        return FeaturePoints.from_array(self.array * (x, y), (width, height))
+        return self.moved(lambda positions: positions * (x, y), (width, height))
+
+    def moved(
+        self, move: Callable[[FloatArray], FloatArray], image_size: tuple[int, int]
+    ) -> FeaturePoints:
+        """The points on another image, to which ``move`` takes (n, 2) positions."""
+        new = move(np.array(list(self.positions.values())))
+        positions = dict(zip(self.positions, map(tuple, new.tolist()), strict=True))
+        return FeaturePoints(positions, image_size)
 
     def validate(self, image_shape: tuple[int, ...]) -> None:
         """Refuse points that the photo cannot be warped by.
@@ -130,11 +140,24 @@ class FeaturePoints:
         _point_checks.check_inside(self.positions, image_shape)
         _point_checks.check_sides(self.array)
         _point_checks.check_order(self.upright())
+        above, below = self.opening()
+        _point_checks.check_lips(-above, 0.0, below)
 
     def upright(self) -> FloatArray:
         """(5, 5, 2) positions about the middle between the eyes, turned so that these are level."""
-        points = self.array
+        return self._turned(self.array)
+
+    def opening(self) -> tuple[float, float]:
+        """How far the mouth is open above and below its centre, pixels; 0 where it is closed."""
+        if OPTIONAL_NAMES[0] not in self.positions:
+            return 0.0, 0.0
+        names = "mouth_centre", *OPTIONAL_NAMES
+        centre, upper, lower = self._turned(np.array([self.positions[n] for n in names]))[:, 1]
+        return float(centre - upper), float(lower - centre)
+
+    def _turned(self, positions: FloatArray) -> FloatArray:
+        eyes = self.array[1, [1, 3]]
         across = np.array([math.cos(self.tilt), math.sin(self.tilt)])
         down = np.array([-across[1], across[0]])
-        from_eyes = points - 0.5 * (points[1, 1] + points[1, 3])
+        from_eyes = positions - eyes.mean(axis=0)
         return np.stack([from_eyes @ across, from_eyes @ down], axis=-1)

@@ -1,0 +1,66 @@
+"""The 52 ARKit expression names, and what is said of a name that is not among them."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+from pdeface.errors import InputError
+
+__all__ = ["ANGLE_NAMES", "ARKIT_NAMES", "PAIRED", "both_sides", "did_you_mean"]
+
+_IN_ORDER = """
+    eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft
+    eyeWideLeft eyeBlinkRight eyeLookDownRight eyeLookInRight eyeLookOutRight eyeLookUpRight
+    eyeSquintRight eyeWideRight jawForward jawLeft jawRight jawOpen mouthClose mouthFunnel
+    mouthPucker mouthLeft mouthRight mouthSmileLeft mouthSmileRight mouthFrownLeft mouthFrownRight
+    mouthDimpleLeft mouthDimpleRight mouthStretchLeft mouthStretchRight mouthRollLower
+    mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft mouthPressRight
+    mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight browDownLeft
+    browDownRight browInnerUp browOuterUpLeft browOuterUpRight cheekPuff cheekSquintLeft
+    cheekSquintRight noseSneerLeft noseSneerRight tongueOut
+    """
+
+ARKIT_NAMES = tuple(_IN_ORDER.split())
+"""The blendshapes of Apple's ARKit, in its order; left and right are the subject's."""
+
+ANGLE_NAMES = tuple(
+    part + angle for part in ("head", "leftEye", "rightEye") for angle in ("Yaw", "Pitch", "Roll")
+)
+"""The nine angles that a recording may have: of the head, the left and the right eye."""
+
+PAIRED = frozenset(
+    name.removesuffix("Left")
+    for name in ARKIT_NAMES
+    if name.endswith("Left") and name not in ("jawLeft", "mouthLeft")
+)
+"""Names, without their side, of the blendshapes that there are two of."""
+
+
+def both_sides(**weights: float) -> dict[str, float]:
+    """Weights by ARKit name, from names that leave the side out: ``mouthSmile`` means both.
+
+    A name that is an ARKit name already (``jawOpen``, ``eyeBlinkLeft``) is kept.
+    """
+    sided: dict[str, float] = {}
+    for name, weight in weights.items():
+        if name in PAIRED:
+            sided[f"{name}Left"] = sided[f"{name}Right"] = weight
+        elif name in ARKIT_NAMES:
+            sided[name] = weight
+        else:
+            raise InputError(
+                f"expected an ARKit name, got {name!r}; {did_you_mean(name, ARKIT_NAMES)}"
+            )
+    return sided
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Advice on an unknown name: the nearest ones, or all of them if none is near."""
+    names = {each.lower(): each for each in known}
+    near = [names[each] for each in difflib.get_close_matches(name.lower(), names, n=3)]
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    if len(names) <= 20:
+        return f"use one of {', '.join(names.values())}"
+    return "use an ARKit name such as jawOpen or eyeBlinkLeft"
