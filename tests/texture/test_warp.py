@@ -71,7 +71,9 @@ def test_a_fine_checkerboard_shrinks_to_grey(engine, frame):
 @given(height=st.integers(1, 90), width=st.integers(1, 90), seed=st.integers(0, 1000))
 def test_scaling_keeps_the_mean_brightness(height, width, seed):
     image = random_image((30, 26), "float64", seed)
-    corners = [np.stack(np.meshgrid([0.0, w], [0.0, h]), -1) for h, w in ((30, 26), (height, width))]
+    corners = [
+        np.stack(np.meshgrid([0.0, w], [0.0, h]), -1) for h, w in ((30, 26), (height, width))
+    ]
     result = warp(image, *corners, (height, width), engine="numpy")
     assert result.mean() == pytest.approx(image.mean(), abs=1e-12)
 

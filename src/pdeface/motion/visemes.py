@@ -57,7 +57,7 @@ _WEIGHTS = {
     # n, l: as t and d, but voiced and wider apart.
     "viseme_nn": both_sides(jawOpen=0.14, mouthLowerDown=0.18, mouthUpperUp=0.08),
     # r: lips pushed forward, less than for ch, and closer together.
-    "viseme_RR": both_sides(jawOpen=0.1, mouthFunnel=0.28, mouthPucker=0.22, mouthLowerDown=0.06),
+    "viseme_RR": both_sides(jawOpen=0.1, mouthFunnel=0.2, mouthPucker=0.32, mouthLowerDown=0.05),
     # a as in car: the jaw at its widest, lips at ease.
     "viseme_aa": both_sides(jawOpen=0.5, mouthLowerDown=0.18, mouthUpperUp=0.1),
     # e as in bed: half open, corners drawn apart.
@@ -69,9 +69,9 @@ _WEIGHTS = {
         jawOpen=0.13, mouthStretch=0.22, mouthSmile=0.28, mouthLowerDown=0.22, mouthUpperUp=0.12
     ),
     # o as in toe: half open and round.
-    "viseme_O": both_sides(jawOpen=0.32, mouthFunnel=0.5, mouthPucker=0.2),
+    "viseme_O": both_sides(jawOpen=0.34, mouthFunnel=0.38, mouthPucker=0.35),
     # u as in book: nearly closed, the lips a small ring far forward.
-    "viseme_U": both_sides(jawOpen=0.12, mouthFunnel=0.25, mouthPucker=0.6),
+    "viseme_U": both_sides(jawOpen=0.1, mouthFunnel=0.12, mouthPucker=0.8),
 }
 
 VISEMES: Mapping[str, Mapping[str, float]] = MappingProxyType(

@@ -17,9 +17,14 @@ __all__ = ["VRM_PRESETS"]
 _WEIGHTS: dict[str, Mapping[str, float]] = {
     # A smile that reaches the eyes: cheeks and lower lids rise with the corners of the mouth.
     "happy": both_sides(mouthSmile=0.75, mouthDimple=0.1, cheekSquint=0.5, eyeSquint=0.3),
-    # Brows down and together, lower lids tense, lips pressed, nose drawn up.
+    # Brows down and together, lower lids tense, lips pressed and drawn down, nose wrinkled.
     "angry": both_sides(
-        browDown=0.85, eyeSquint=0.3, noseSneer=0.35, mouthFrown=0.3, mouthPress=0.3
+        browDown=0.9,
+        eyeSquint=0.3,
+        noseSneer=0.15,
+        mouthFrown=0.25,
+        mouthPress=0.6,
+        mouthRollLower=0.1,
     ),
     # The inner ends of the brows up, corners of the mouth down, the chin raised, eyes lowered.
     "sad": both_sides(

@@ -7,6 +7,7 @@ each mode, whatever the level of detail.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -14,13 +15,13 @@ from numpy.typing import NDArray
 
 from pdeface.errors import InputError
 from pdeface.pde.fourier import analysis, synthesis, wave_numbers
+from pdeface.pde.joins import Continuity
 from pdeface.pde.rows import u_weights
 
 __all__ = ["fit_curves"]
 
 FloatArray = NDArray[np.float64]
 
-# The two end curves are the edge of the surface: rows of samples there count this much.
 EDGE_WEIGHT = 20.0
 # Damping of the modes grows with this power of their number, so that only the highest feel it:
 # a sharp feature would ring in them.
@@ -35,6 +36,8 @@ def fit_curves(
     modes: int = 6,
     fairness: float = 5e-3,
     damping: float = 1.0,
+    continuity: Mapping[int, Continuity] | None = None,
+    edge_weight: float = EDGE_WEIGHT,
 ) -> FloatArray:
     """Data points of the closed curves whose smooth surface is nearest to samples.
 
@@ -49,6 +52,8 @@ def fit_curves(
         a, modes: as for :class:`pdeface.pde.PDESurface`.
         fairness: weight of the bending of the curves, per sample.
         damping: weight of the highest mode, per sample.
+        continuity: inner curves that are a crease or a slit, across which nothing is fair.
+        edge_weight: how much each sample of the two end rows counts; they are the surface's edge.
 
     Returns:
         (K, M, 3) data points.
@@ -68,11 +73,11 @@ def fit_curves(
     amplitudes = np.einsum("cnm,umx->cunx", waves, samples)
     fitted = np.zeros((2, count, amplitudes.shape[2], 3))
     row_weight = np.ones((rows, 1))
-    row_weight[[0, -1]] = EDGE_WEIGHT
-    bending = np.diff(np.eye(count), 2, axis=0)
+    row_weight[[0, -1]] = edge_weight
+    bending = _second_differences(count, continuity or {})
     w_of_mode = wave_numbers(points, a, modes)
     for w in np.unique(w_of_mode):
-        across = u_weights(np.linspace(0.0, 1.0, rows), w, count)
+        across = u_weights(np.linspace(0.0, 1.0, rows), w, count, continuity=continuity)
         normal = across.T @ (row_weight * across) + fairness * rows / count * bending.T @ bending
         for mode in np.flatnonzero(w_of_mode == w):
             high = damping * rows / count * (mode / (points / 2)) ** DAMPING_POWER
@@ -81,3 +86,11 @@ def fit_curves(
             fitted[:, :, mode] = solution.reshape(count, 2, 3).transpose(1, 0, 2)
     v = (np.arange(points) + 0.5) * (2.0 * np.pi / points)
     return np.asarray(np.einsum("cmn,cknx->kmx", synthesis(points, v), fitted))
+
+
+def _second_differences(count: int, continuity: Mapping[int, Continuity]) -> FloatArray:
+    """(differences, K) of neighbouring curves, none across a break."""
+    breaks = {curve for curve, kind in continuity.items() if kind != "C2"}
+    breaks |= {curve + 1 for curve, kind in continuity.items() if kind == "slit"}
+    whole = [k for k in range(count - 2) if k + 1 not in breaks]
+    return np.diff(np.eye(count), 2, axis=0)[whole]

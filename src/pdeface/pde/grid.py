@@ -42,6 +42,9 @@ class GridEvaluator:
         u: (U,) values in [0, 1].
         v: (V,) radians.
         a, modes, join, continuity: as for :class:`pdeface.pde.PDESurface`.
+        parting: the continuity of a second surface that is added to the first, for displacements
+            that part where the face does not. Points are then (..., 2 K, M, 3): the K curves, and
+            after them the K displacement curves of the second surface.
         side: which side of a curve its own u means, at a crease.
         mirrored: every curve is its own reflection in a plane z = const, as a face's are:
             half the work. The second half of the points is not looked at; M must be even.
@@ -61,21 +64,25 @@ class GridEvaluator:
         modes: int = 6,
         join: Join = "smooth",
         continuity: Mapping[int, Continuity] | None = None,
+        parting: Mapping[int, Continuity] | None = None,
         side: Side = "after",
         mirrored: bool = False,
         dtype: DTypeLike = np.float64,
     ) -> None:
         check_parameters(a, modes)
-        check_join(shape[0], join, continuity or {})
+        layers = [continuity or {}, *([] if parting is None else [parting])]
+        for layer in layers:
+            check_join(shape[0], join, layer)
         if mirrored and shape[1] % 2:
             raise InputError(
                 f"mirrored curves need an even number of points, got {shape[1]}; leave mirrored out"
             )
-        self.shape = shape
+        self.shape = (len(layers) * shape[0], shape[1])
+        self._layers = len(layers)
         self.u = np.atleast_1d(np.asarray(u, dtype=np.float64))
         self.v = np.atleast_1d(np.asarray(v, dtype=np.float64))
         self.dtype = np.dtype(dtype)
-        rows = locate(self.u, shape[0], side, continuity)
+        rows = locate(self.u, shape[0], side, {k: c for each in layers for k, c in each.items()})
         fastest = float(wave_numbers(shape[1], a, modes)[-1]) / (shape[0] - 1)
         stations = choose_stations(rows, fastest, self.dtype)
         self._waves = mirrored_waves(shape[1]) if mirrored else closed_waves(shape[1])
@@ -86,7 +93,7 @@ class GridEvaluator:
             a,
             modes,
             join,
-            continuity,
+            layers,
             self.dtype,
         )
         self._sheet = Sheet(self._waves, self.v, stations, self.dtype)
@@ -165,7 +172,9 @@ class GridEvaluator:
 
     def _write_some(self, points: Array, positions: Array | None, normals: Array | None) -> None:
         if positions is not None and self._on_curves is not None:
-            samples = self._waves.samples(points[:, self._on_curves], self.dtype)
+            layers = points.reshape(len(points), self._layers, -1, *points.shape[2:])
+            on_rows = layers[:, :, self._on_curves].sum(axis=1)
+            samples = self._waves.samples(on_rows, self.dtype)
             np.matmul(samples, self._direct, out=positions.reshape(3, -1, len(self.v)))
             positions = None
         if positions is None and normals is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -24,7 +24,8 @@ class ModeProducts:
         shape: (K, M) of the curves.
         waves: of the curves.
         rows: where the modes are wanted, R rows.
-        a, modes, join, continuity: as for :class:`pdeface.pde.PDESurface`.
+        a, modes, join: as for :class:`pdeface.pde.PDESurface`.
+        layers: the continuity of each surface that is summed.
         dtype: precision of the products.
     """
 
@@ -36,24 +37,24 @@ class ModeProducts:
         a: float,
         modes: int,
         join: Join,
-        continuity: Mapping[int, Continuity] | None,
+        layers: Sequence[Mapping[int, Continuity]],
         dtype: DTypeLike,
     ) -> None:
         self._analysis = waves.analysis.astype(dtype)
-        of_w = [
-            (w, slopes(w, shape[0], join, continuity))
-            for w in np.unique(wave_numbers(shape[1], a, modes)).tolist()
-        ]
-        weights = np.array(
-            [[row_weights(rows, w, of_slopes, d).T for w, of_slopes in of_w] for d in (0, 1)],
-            dtype=dtype,
-        )
+
+        def across(w: float, derivative: int) -> Array:
+            """(curves of all layers, R): the layers are summed by the same product."""
+            of_layer = [slopes(w, shape[0], join, continuity) for continuity in layers]
+            return np.concatenate([row_weights(rows, w, of, derivative).T for of in of_layer])
+
+        of_w = np.unique(wave_numbers(shape[1], a, modes)).tolist()
+        weights = np.array([[across(w, d) for w in of_w] for d in (0, 1)], dtype=dtype)
         # One matrix for each harmonic solved on its own, and one for all of the remainder.
         self._each, self._remainder = weights[:, : modes + 1], weights[:, modes + 1 :]
         self._split = waves.per_harmonic * self._each.shape[1]
 
     def coefficients(self, samples: Array) -> Array:
-        """(waves, 3, faces K) Fourier coefficients of (3, faces K, samples)."""
+        """(waves, 3, faces L K) Fourier coefficients of (3, faces L K, samples), L layers."""
         result = np.empty((self._analysis.shape[1], *samples.shape[:2]), samples.dtype)
         np.matmul(self._analysis, samples.swapaxes(1, 2), out=result.transpose(1, 0, 2))
         return result

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping
 from typing import Any
 
@@ -112,6 +113,28 @@ class PDESurface:
         self._ends[:, 1] = self._values[1:]
         w_of_mode = wave_numbers(points.shape[1], a, modes)
         self._groups = [(float(w), np.flatnonzero(w_of_mode == w)) for w in np.unique(w_of_mode)]
+
+    def __add__(self, other: PDESurface) -> PDESurface:
+        """The sum of two surfaces through as many curves of as many points: a displaced surface.
+
+        Each keeps its own continuity, so that a displacement may part where the face does not.
+
+        Raises:
+            InputError: other shapes or parameters.
+        """
+        if not isinstance(other, PDESurface):
+            return NotImplemented
+        mine, theirs = ((*s._shape, *(w for w, _ in s._groups)) for s in (self, other))
+        if mine != theirs:
+            raise InputError(
+                "surfaces can be added if their curves, points, a and modes agree, got "
+                f"{self._shape} and {other._shape}; make both with the same parameters"
+            )
+        total = copy.copy(self)
+        total._values = self._values + other._values
+        total._ends = self._ends + other._ends
+        total._continuity = {**self._continuity, **other._continuity}
+        return total
 
     def __call__(self, u: Any, v: Any, *, side: Side = "after") -> FloatArray:
         """Positions S(u, v), metres.

@@ -10,7 +10,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -20,63 +19,18 @@ from pdeface.errors import InputError
 from pdeface.images import MAX_SIDE
 from pdeface.texture import _finish, _grid
 from pdeface.texture._front import neutral_front, straight_front
-from pdeface.texture._grid import ScaledGrid
 from pdeface.texture._lattice import lattice_names, photo_lattice
+from pdeface.texture._result import UVTexture
 from pdeface.texture._upright import set_upright
 from pdeface.texture.points import FeaturePoints
 from pdeface.texture.warp import Engine, warp
 
-__all__ = ["UVTexture", "uv_texture"]
+__all__ = ["uv_texture"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 
 _SMALLEST, _LARGEST, _STEP = 512, 4096, 16
-
-
-@dataclass(frozen=True, eq=False)
-class UVTexture:
-    """A texture for the uv mesh, and everything that led to it.
-
-    Attributes:
-        image: (H, W, 3) uint8, step 5: row ``u H``, column ``v W / pi``, the whole face.
-        warped: (H, W, 3) uint8: the same before its edge was finished; black where the photo has
-            nothing.
-        photo: (h, w, 3 or 4) uint8 that the meshes lie on: the given photo, or a turned copy
-            if the head was tilted by more than 5 degrees.
-        points: the feature points in ``photo``.
-        grid: the scaled uv grid on ``photo``, step 1.
-        targets: (5, 5, 2) values (u, v) of the feature points.
-        source_mesh: (7, 7, 2) M_s, pixels of ``photo``, step 2.
-        target_mesh: (7, 7, 2) M_t, pixels as well, step 3: where the grid has the points.
-    """
-
-    image: Pixels
-    warped: Pixels
-    photo: Pixels
-    points: FeaturePoints
-    grid: ScaledGrid
-    targets: FloatArray
-    source_mesh: FloatArray
-    target_mesh: FloatArray
-
-    def target_image(self) -> Pixels:
-        """(h, w, 3 or 4) I_t, step 4 as the paper shows it: the photo warped on to the grid.
-
-        The grid's nodes can be read off it, as in Fig. 6(d) to (f). ``image`` is made without this
-        step between, so that the photo is resampled once.
-        """
-        height, width = self.photo.shape[:2]
-        meshes = (
-            _with_border(mesh, width, height) for mesh in (self.source_mesh, self.target_mesh)
-        )
-        return warp(self.photo, *meshes)
-
-    def texel(self, u: Any, v: Any) -> FloatArray:
-        """(..., 2) positions (x, y) in ``image`` of points (u, v), texels from its corner."""
-        height, width = self.image.shape[:2]
-        x, y = np.broadcast_arrays(np.asarray(v) * (width / np.pi), np.asarray(u) * float(height))
-        return np.stack([x, y], axis=-1)
 
 
 def uv_texture(
@@ -129,22 +83,22 @@ def uv_texture(
     source, target = _grid.warp_meshes(points, uv, grid)
     shape = _check_size(size) if size else _size_for(points.array, uv)
     places, lattice = photo_lattice(source, target, uv, grid, points.opening())
-    texels = lattice[..., ::-1] * (shape[1] / np.pi, shape[0])
-    warped = _warp_marked(photo, places, texels, shape, engine, lattice_names(uv))
+    texel = np.array([shape[1] / np.pi, shape[0]])
+    names = lattice_names(uv)
+    warped = _warp_marked(photo, places, lattice[..., ::-1] * texel, shape, engine, names)
     weights = _finish.trust(uv, shape) if finish else np.ones(shape)
     texture = _finish.finish(warped, weights, engine)
-    meshes = grid.to_photo(source), grid.to_photo(target)
-    return UVTexture(texture, warped[..., :3], photo, points, grid, uv, *meshes)
-
-
-def _with_border(mesh: FloatArray, width: float, height: float) -> FloatArray:
-    """(9, 9, 2) the mesh and, around it, nodes on the photo's border, straight beyond its own."""
-    bordered = np.pad(mesh, ((1, 1), (1, 1), (0, 0)), mode="edge")
-    bordered[:, 0, 0] = min(0.0, mesh[..., 0].min() - 1.0)
-    bordered[:, -1, 0] = max(width, mesh[..., 0].max() + 1.0)
-    bordered[0, :, 1] = min(0.0, mesh[..., 1].min() - 1.0)
-    bordered[-1, :, 1] = max(height, mesh[..., 1].max() + 1.0)
-    return bordered
+    return UVTexture(
+        image=texture,
+        warped=warped[..., :3],
+        photo=photo,
+        points=points,
+        grid=grid,
+        targets=uv,
+        source_mesh=grid.to_photo(source),
+        target_mesh=_grid.uv_nodes(uv)[..., ::-1] * texel,
+        grid_mesh=grid.to_photo(target),
+    )
 
 
 def _warp_marked(

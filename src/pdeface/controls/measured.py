@@ -1,0 +1,121 @@
+"""Displacements of the curves that were measured: expressions and identity modes.
+
+The numbers in ``data/measured.npz`` were measured by ``python -m pdeface.controls.build`` on the
+expressions and identity modes of ICT-FaceKit (MIT, Copyright (c) 2020 USC Institute for Creative
+Technologies; see NOTICE).
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.curves import curve_parameters, mirror_points
+from pdeface.errors import InputError
+from pdeface.pde import Continuity, GridEvaluator
+from pdeface.template.layout import PAPER_ROWS, ROWS
+
+__all__ = ["DATA", "LEVEL", "Displacement", "expression", "identity", "identity_count", "slits"]
+
+FloatArray = NDArray[np.float64]
+
+DATA = Path(__file__).parent / "data" / "measured.npz"
+LEVEL = (55, 92)
+"""Curves and points at which expressions were measured."""
+
+
+class Displacement(NamedTuple):
+    """A displacement of closed curves, metres, in two parts that are added.
+
+    Attributes:
+        smooth: (K, M, 3) what the surface follows without a break.
+        parting: (K, M, 3) what parts lids and lips; its surface is slit there.
+    """
+
+    smooth: FloatArray
+    parting: FloatArray
+
+    def __mul__(self, weight: object) -> Displacement:
+        factor = float(weight)  # type: ignore[arg-type]
+        return Displacement(self.smooth * factor, self.parting * factor)
+
+    @classmethod
+    def none(cls, shape: tuple[int, int]) -> Displacement:
+        """No displacement of K curves of M points."""
+        return cls(np.zeros((*shape, 3)), np.zeros((*shape, 3)))
+
+
+def slits(curves: int) -> dict[int, Continuity]:
+    """The curves at which a face of so many curves may part: between the lids and the lips.
+
+    Raises:
+        InputError: no curve lies on the lid margins and the mouth seam.
+    """
+    step, rest = divmod(curves - 1, PAPER_ROWS - 1)
+    if rest:
+        raise InputError(
+            f"a face that moves needs 27 n + 1 curves (28, 55, 109, ...), got {curves}; "
+            "fit it at such a level"
+        )
+    eye = range(step * ROWS["upper_lid_margin"], step * ROWS["lower_lid_margin"])
+    mouth = range(step * ROWS["mouth_seam_upper"], step * ROWS["mouth_seam_lower"])
+    return {curve: "slit" for curve in (*eye, *mouth)}
+
+
+@lru_cache(maxsize=1)
+def _data() -> MappingProxyType[str, NDArray[Any]]:
+    with np.load(DATA, allow_pickle=False) as file:
+        return MappingProxyType({name: file[name] for name in file.files})
+
+
+@lru_cache(maxsize=256)
+def expression(name: str, shape: tuple[int, int]) -> Displacement:
+    """Displacement of K curves of M points by one of the measured expressions, at full weight.
+
+    Args:
+        name: as measured, such as ``"eyeBlink_L"``.
+        shape: (K, M); K = 27 n + 1.
+    """
+    index = _data()["names"].tolist().index(name)
+    return Displacement(
+        _at_level("smooth", index, shape, {}),
+        _at_level("parting", index, shape, slits(LEVEL[0])),
+    )
+
+
+def identity_count() -> int:
+    """Number of identity modes."""
+    return len(_data()["identity"])
+
+
+@lru_cache(maxsize=256)
+def identity(index: int, shape: tuple[int, int]) -> Displacement:
+    """Displacement by one standard deviation of an identity mode, counted from 0."""
+    smooth = _at_level("identity", index, shape, {})
+    return Displacement(smooth, np.zeros_like(smooth))
+
+
+def _at_level(
+    part: str, index: int, shape: tuple[int, int], continuity: dict[int, Continuity]
+) -> FloatArray:
+    """(K, M, 3) one part of a measured displacement, read off its own surface."""
+    half = _data()[part][index] * _data()[f"{part}_scale"][index]
+    points = mirror_points(half)
+    if points.shape[:2] != shape:
+        u, v = np.linspace(0.0, 1.0, shape[0]), curve_parameters(shape[1])
+        evaluator = _evaluator(points.shape[:2], tuple(u), tuple(v), tuple(continuity))
+        points = np.ascontiguousarray(evaluator.positions(points))
+    points.setflags(write=False)
+    return points
+
+
+@lru_cache(maxsize=16)
+def _evaluator(
+    shape: tuple[int, int], u: tuple[float, ...], v: tuple[float, ...], slit: tuple[int, ...]
+) -> GridEvaluator:
+    return GridEvaluator(shape, u, v, continuity=dict.fromkeys(slit, "slit"))
