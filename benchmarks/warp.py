@@ -2,10 +2,11 @@
 
     python benchmarks/warp.py [SIZE ...]
 
-One thread (OpenCV is told so; nothing else here uses more), one image (SIZE x SIZE x 3 bytes, 256 and 1024 by default), one pair of 7 x 7 meshes.
-The calls take turns, so that a busy machine slows all of them; of each the best counts. What is
-compared is not equal: cv2.remap reads four pixels with a map computed beforehand, and neither it
-nor scikit-image weights by area. The mesh warp's time includes its splines and its checks.
+One thread (OpenCV is told so, nothing else here uses more); one image of SIZE x SIZE x 3 bytes,
+256 and 1024 by default; one pair of 7 x 7 meshes. The calls take turns, so that a busy machine
+slows all of them; of each the best counts. What is compared is not equal: cv2.remap reads four
+pixels by a map computed beforehand, and neither it nor scikit-image weights by area. The mesh
+warp's time includes its checks and splines.
 """
 
 from __future__ import annotations

@@ -15,6 +15,14 @@ from numpy.typing import NDArray
 
 from pdeface import images
 from pdeface.archive import FaceRecord, pack, unpack
+from pdeface.controls import (
+    CONTROLS,
+    Control,
+    checked_weights,
+    displacement,
+    random_weights,
+    slits,
+)
 from pdeface.curves import BoundaryCurves
 from pdeface.errors import FileFormatError, InputError
 from pdeface.files import PathLike, atomic_write
@@ -23,7 +31,9 @@ from pdeface.pde.surface import check_parameters
 from pdeface.template import neutral_curves
 from pdeface.uvmesh import FaceMesh, UVMesh
 
-__all__ = ["Face", "load", "neutral"]
+__all__ = ["Face", "load", "neutral", "random"]
+
+FloatArray = NDArray[np.float64]
 
 SUFFIX = ".pdeface"
 _LARGEST_FILE = 512 << 20
@@ -41,9 +51,10 @@ class Face:
         modes: N, the number of Fourier modes solved one by one (equation 6).
         name: what to call the face in files and pictures.
         notes: free text by topic, such as ``{"licence": "CC0", "source": "..."}``.
+        weights: values of the controls (:mod:`pdeface.controls`) that are not 0, read-only.
 
     Raises:
-        InputError: parameters, pixels or texts that no face has.
+        InputError: parameters, pixels, texts or weights that no face has.
 
     Example:
         >>> import numpy as np
@@ -58,6 +69,7 @@ class Face:
     modes: int = 6
     name: str = ""
     notes: Mapping[str, str] = field(default_factory=dict)
+    weights: Mapping[str, float] = field(default_factory=dict)
     # The texture as a PNG or JPEG file, when it came as one: not to be compressed twice.
     _encoded: bytes | None = field(default=None, init=False, repr=False)
 
@@ -70,14 +82,73 @@ class Face:
         check_parameters(self.a, self.modes)
         _check_texts([self.name, *self.notes.keys(), *self.notes.values()])
         fields = {"a": float(self.a), "modes": int(self.modes)}
+        weights = MappingProxyType(checked_weights(self.weights))
         texture = None if self.texture is None else _frozen(images.check_pixels(self.texture))
         notes = MappingProxyType(dict(self.notes))
-        for key, value in {**fields, "texture": texture, "notes": notes}.items():
+        for key, value in {
+            **fields,
+            "texture": texture,
+            "notes": notes,
+            "weights": weights,
+        }.items():
             object.__setattr__(self, key, value)
 
+    @property
+    def controls(self) -> tuple[tuple[Control, float], ...]:
+        """Every control with its present value, in the order in which they are listed."""
+        return tuple((control, self.weights.get(name, 0.0)) for name, control in CONTROLS.items())
+
+    def set(self, *, clamp: bool = False, **weights: float) -> Face:
+        """The same face with these values of its controls, the others as they are.
+
+        Args:
+            clamp: bring values into their range instead of refusing them.
+            weights: values by name, such as ``eyeBlinkRight=1.0``; 0 is neutral.
+
+        Raises:
+            InputError: an unknown name (the message offers the nearest), or a value that is not
+                a number in its control's range.
+
+        Example:
+            >>> neutral().set(jawOpen=0.5).weights["jawOpen"]
+            0.5
+        """
+        return self.with_weights(weights, clamp=clamp)
+
+    def with_weights(self, weights: Mapping[str, float], *, clamp: bool = False) -> Face:
+        """As :meth:`set`, from a mapping."""
+        changed = {**dict.fromkeys(weights, 0.0), **checked_weights(weights, clamp=clamp)}
+        return self._changed(weights={**self.weights, **changed})
+
+    @property
+    def moved_curves(self) -> BoundaryCurves:
+        """The curves where the controls have moved them: what the surface passes through."""
+        if not self.weights:
+            return self.curves
+        moved = displacement(self.weights, self.curves.shape)
+        return self.curves.displaced(moved.smooth + moved.parting)
+
     def surface(self, join: Join = "smooth") -> PDESurface:
-        """The PDE surface through the curves; u in [0, 1], v in radians with period 2 pi."""
-        return PDESurface(self.curves.points, a=self.a, modes=self.modes, join=join)
+        """The PDE surface through the moved curves; u in [0, 1], v in radians, period 2 pi.
+
+        Under the smooth join the face is C2 everywhere but between lids and lips, where
+        expressions part it.
+        """
+        points, parting = self._layers(join)
+        surface = PDESurface(points, a=self.a, modes=self.modes, join=join)
+        if parting is None:
+            return surface
+        slit = slits(self.curves.shape[0])
+        return surface + PDESurface(parting, a=self.a, modes=self.modes, continuity=slit)
+
+    def _layers(self, join: Join) -> tuple[FloatArray, FloatArray | None]:
+        """Data points, and the displacement that parts the surface, if any does."""
+        if not self.weights:
+            return self.curves.points, None
+        moved = displacement(self.weights, self.curves.shape)
+        if join == "smooth" and moved.parting.any():
+            return self.curves.points + moved.smooth, moved.parting
+        return self.curves.points + moved.smooth + moved.parting, None
 
     def mesh(
         self,
@@ -95,8 +166,13 @@ class Face:
             extent: ``"face"`` for 0 <= v <= pi, ``"loop"`` for the closed curves.
         """
         grid = UVMesh(rows, columns, extent)
-        evaluator = _evaluator(self.curves.shape, grid, self.a, self.modes, join)
-        vertices, normals = evaluator.positions_and_normals(self.curves.points)
+        points, parting = self._layers(join)
+        evaluator = _evaluator(
+            self.curves.shape, grid, self.a, self.modes, join, parting is not None
+        )
+        if parting is not None:
+            points = np.concatenate([points, parting])
+        vertices, normals = evaluator.positions_and_normals(points)
         return FaceMesh(
             vertices=vertices.reshape(-1, 3).astype(np.float64, copy=False),
             normals=normals.reshape(-1, 3).astype(np.float64, copy=False),
@@ -159,7 +235,13 @@ class Face:
                 "use pdeface.export for other formats"
             )
         record = FaceRecord(
-            self.curves, self.a, self.modes, self.name, self.notes, self.texture_file()
+            self.curves,
+            self.a,
+            self.modes,
+            self.name,
+            self.notes,
+            self.texture_file(),
+            self.weights,
         )
         atomic_write(path, pack(record))
 
@@ -173,8 +255,9 @@ class Face:
             return NotImplemented
         if (self.texture is None) != (other.texture is None):
             return False
-        mine = (self.curves, self.a, self.modes, self.name, dict(self.notes))
-        theirs = (other.curves, other.a, other.modes, other.name, dict(other.notes))
+        mine, theirs = (
+            (f.curves, f.a, f.modes, f.name, dict(f.notes), dict(f.weights)) for f in (self, other)
+        )
         if mine != theirs or self.texture is None or other.texture is None:
             return mine == theirs
         return np.array_equal(self.texture, other.texture)
@@ -182,8 +265,8 @@ class Face:
     def __reduce__(self) -> tuple[Any, ...]:
         # Through the constructor: a pickled array comes back writable, and views do not pickle.
         curves = (self.curves.points, self.curves.mirror_z)
-        rest = (self.texture, self.a, self.modes, self.name, dict(self.notes), self._encoded)
-        return _restored, (curves, *rest)
+        texts = self.name, dict(self.notes), dict(self.weights)
+        return _restored, (curves, self.texture, self.a, self.modes, *texts, self._encoded)
 
     def __repr__(self) -> str:
         texture = "no texture"
@@ -209,6 +292,17 @@ def neutral(level: str = "28x46") -> Face:
     return Face(neutral_curves(level), name="neutral", notes=notes)
 
 
+def random(seed: int | None = None, level: str = "28x46") -> Face:
+    """A random person, drawn from how the heads of ICT-FaceKit differ.
+
+    Args:
+        seed: the same seed gives the same person; None one who was never seen.
+        level: as for :func:`neutral`.
+    """
+    name = "random" if seed is None else f"random {seed}"
+    return neutral(level).with_name(name).with_weights(random_weights(seed))
+
+
 def load(path: PathLike) -> Face:
     """The face in a ``.pdeface`` file.
 
@@ -220,7 +314,8 @@ def load(path: PathLike) -> Face:
     data = _read(path)
     try:
         record = unpack(data)
-        face = Face(record.curves, None, record.a, record.modes, record.name, record.notes)
+        texts = record.name, record.notes, record.weights
+        face = Face(record.curves, None, record.a, record.modes, *texts)
         return face if record.texture is None else face.with_texture(record.texture)
     except InputError as error:
         raise FileFormatError(f"{path}: {error}") from error
@@ -257,9 +352,10 @@ def _check_texts(texts: list[str]) -> None:
 
 @lru_cache(maxsize=16)
 def _evaluator(
-    shape: tuple[int, int], grid: UVMesh, a: float, modes: int, join: Join
+    shape: tuple[int, int], grid: UVMesh, a: float, modes: int, join: Join, parts: bool
 ) -> GridEvaluator:
-    return GridEvaluator(shape, grid.u, grid.v, a=a, modes=modes, join=join)
+    parting = slits(shape[0]) if parts else None
+    return GridEvaluator(shape, grid.u, grid.v, a=a, modes=modes, join=join, parting=parting)
 
 
 def _frozen(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -278,8 +374,9 @@ def _restored(
     modes: int,
     name: str,
     notes: Mapping[str, str],
+    weights: Mapping[str, float],
     encoded: bytes | None,
 ) -> Face:
-    face = Face(BoundaryCurves(*curves), texture, a, modes, name, notes)
+    face = Face(BoundaryCurves(*curves), texture, a, modes, name, notes, weights)
     object.__setattr__(face, "_encoded", encoded)
     return face

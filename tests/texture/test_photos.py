@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageCms
 
 from pdeface.errors import FileFormatError, InputError
-from pdeface.texture import read_photo, write_image
 from pdeface.texture import photos as room
+from pdeface.texture import read_photo, write_image
 
 COLOURS = np.array(
     [[[255, 0, 0], [0, 255, 0]], [[0, 0, 255], [204, 102, 51]], [[0, 0, 0], [255, 255, 255]]],

@@ -93,7 +93,7 @@ def test_a_stretched_ramp_is_a_ramp(axis, engine, frame):
 
 
 def test_magnifying_makes_no_blocks(engine, frame):
-    """A single bright pixel becomes one smooth hill: no two steps alike are larger than it needs."""
+    """A single bright pixel becomes one smooth hill."""
     image = np.zeros((5, 9))
     image[:, 4] = 1.0
     line = warp(image, frame(5, 9), frame(5, 900), (5, 900), engine=engine)[2]
@@ -229,3 +229,19 @@ def test_the_result_owns_its_pixels(engine, frame):
     result = warp(image[::-1, ::-1], frame(6, 6), frame(6, 6), engine=engine)
     assert not np.shares_memory(result, image)
     np.testing.assert_array_equal(result, image[::-1, ::-1])
+
+
+def test_compiled_code_that_cannot_be_kept_is_compiled_all_the_same(monkeypatch):
+    """From a folder that cannot be written to, say of a system-wide installation."""
+    numba = pytest.importorskip("numba")
+    from pdeface.texture import _resample_numba
+
+    njit = numba.njit
+
+    def without_a_place(*args, cache=False, **options):
+        if cache:
+            raise RuntimeError("cannot cache function: no locator available")
+        return njit(*args, **options)
+
+    monkeypatch.setattr(numba, "njit", without_a_place)
+    assert _resample_numba._jit(lambda x: x + 1)(2) == 3

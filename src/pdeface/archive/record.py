@@ -41,6 +41,7 @@ class FaceRecord:
     name: str = ""
     notes: Mapping[str, str] = field(default_factory=dict)
     texture: bytes | None = None
+    weights: Mapping[str, float] = field(default_factory=dict)
 
 
 def pack(record: FaceRecord) -> bytes:
@@ -96,6 +97,7 @@ def _record(header: Mapping[str, Any], members: Mapping[str, bytes]) -> FaceReco
         name=_text(header.get("name", "")),
         notes={key: _text(value) for key, value in header.get("notes", {}).items()},
         texture=None if texture is None else _member(members, texture["file"]),
+        weights={key: _number(value) for key, value in header.get("weights", {}).items()},
     )
 
 
@@ -126,6 +128,7 @@ def _describe(record: FaceRecord, mirrored: bool) -> bytes:
             "mirror_z": record.curves.mirror_z,
         },
         "surface": {"a": float(record.a), "modes": int(record.modes)},
+        "weights": dict(record.weights),
         "texture": texture,
         "members": members,
     }

@@ -1,0 +1,125 @@
+"""Controls: named displacements of the boundary curves, in which the surface is linear.
+
+Three kinds: *shape* (conformation: who it is, by name), *identity* (who it is, by statistics) and
+*expression* (what it does: ARKit's).
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from math import isfinite
+from types import MappingProxyType
+
+import numpy as np
+
+from pdeface.controls import measured
+from pdeface.controls.arkit import ARKIT, EXPRESSIONS, SOURCES
+from pdeface.controls.control import Control
+from pdeface.controls.measured import Displacement, slits
+from pdeface.errors import InputError
+
+__all__ = [
+    "ARKIT",
+    "CONTROLS",
+    "Control",
+    "Displacement",
+    "checked_weights",
+    "displacement",
+    "random_weights",
+    "slits",
+]
+
+IDENTITY_RANGE = 3.0
+"""Identity weights are standard deviations."""
+
+IDENTITIES = 50
+
+
+def _identity(index: int) -> Control:
+    return Control(
+        f"identity{index + 1:02d}",
+        "identity",
+        "identity",
+        -IDENTITY_RANGE,
+        IDENTITY_RANGE,
+        f"mode {index + 1} of how heads differ, in standard deviations",
+    )
+
+
+CONTROLS: Mapping[str, Control] = MappingProxyType(
+    {c.name: c for c in (*map(_identity, range(IDENTITIES)), *EXPRESSIONS.values())}
+)
+"""Every control by name, in the order in which they are listed."""
+
+
+def checked_weights(weights: Mapping[str, float], *, clamp: bool = False) -> dict[str, float]:
+    """The weights by name, in the order of :data:`CONTROLS`, without those that are 0.
+
+    Args:
+        weights: values by name of control.
+        clamp: bring values into their range instead of refusing them.
+
+    Raises:
+        InputError: an unknown name (the message offers the nearest), a value that is not a finite
+            number, or one out of range.
+    """
+    for name in weights:
+        if name not in CONTROLS:
+            raise _unknown(name)
+    values = {n: _checked(CONTROLS[n], weights[n], clamp) for n in CONTROLS if n in weights}
+    return {name: value for name, value in values.items() if value != 0.0}
+
+
+def displacement(weights: Mapping[str, float], shape: tuple[int, int]) -> Displacement:
+    """Displacement of K curves of M points by all controls together.
+
+    Args:
+        weights: values by name.
+        shape: (K, M).
+
+    Raises:
+        InputError: an expression and a K for which no curve lies on the lids and lips.
+    """
+    total = Displacement.none(shape)
+    for name, weight in weights.items():
+        for part in _parts(name, shape):
+            total.smooth[...] += weight * part.smooth
+            total.parting[...] += weight * part.parting
+    return total
+
+
+def random_weights(seed: int | None = None) -> dict[str, float]:
+    """Identity weights of a random person, each normally distributed and at most 3 deviations."""
+    drawn = np.random.default_rng(seed).normal(size=IDENTITIES)
+    values = drawn.clip(-IDENTITY_RANGE, IDENTITY_RANGE).tolist()
+    return {_identity(index).name: value for index, value in enumerate(values)}
+
+
+def _parts(name: str, shape: tuple[int, int]) -> list[Displacement]:
+    if CONTROLS[name].kind == "identity":
+        return [measured.identity(int(name.removeprefix("identity")) - 1, shape)]
+    return [measured.expression(source, shape) for source in SOURCES[name]]
+
+
+def _checked(control: Control, value: float, clamp: bool) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = float("nan")
+    if not isfinite(number):
+        raise InputError(f"{control.name} must be a finite number, got {value!r}")
+    if clamp:
+        return min(max(number, control.low), control.high)
+    if not control.low <= number <= control.high:
+        raise InputError(
+            f"{control.name} must lie in [{control.low:g}, {control.high:g}], got {number:g}; "
+            "choose a value inside, or clamp"
+        )
+    return number
+
+
+def _unknown(name: str) -> InputError:
+    near = difflib.get_close_matches(name, CONTROLS, n=3, cutoff=0.5)
+    hint = f"did you mean {', '.join(near)}?" if near else "see pdeface.controls.CONTROLS"
+    return InputError(f"no control is called {name!r}; {hint}")

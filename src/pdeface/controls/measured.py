@@ -64,7 +64,7 @@ def slits(curves: int) -> dict[int, Continuity]:
         )
     eye = range(step * ROWS["upper_lid_margin"], step * ROWS["lower_lid_margin"])
     mouth = range(step * ROWS["mouth_seam_upper"], step * ROWS["mouth_seam_lower"])
-    return {curve: "slit" for curve in (*eye, *mouth)}
+    return dict.fromkeys((*eye, *mouth), "slit")
 
 
 @lru_cache(maxsize=1)

@@ -80,7 +80,7 @@ def look(fps: float = 60.0) -> Track:
     """
     times = _moments(5.5, fps)
     # Seconds, yaw and pitch of what is looked at, radians.
-    places = ((0.4, 0.42, 0.0), (1.5, -0.42, 0.0), (2.7, 0.0, -0.3), (3.7, 0.05, 0.32))
+    places = ((0.4, 0.36, 0.0), (1.5, -0.36, 0.0), (2.7, 0.0, -0.3), (3.7, 0.05, 0.32))
     targets = np.zeros((2, len(times)))
     heads = np.zeros((2, len(times)))
     at = np.zeros(2)

@@ -14,6 +14,7 @@ public readers agree on, and what recordings show (docs/motion.md has the detail
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -24,7 +25,7 @@ from pdeface import files
 from pdeface.errors import FileFormatError, InputError
 from pdeface.motion import _checks as checks
 from pdeface.motion import timecode
-from pdeface.motion._csv import Table, read_table
+from pdeface.motion._table import Table, read_table
 from pdeface.motion.names import ANGLE_NAMES
 from pdeface.motion.track import Track
 
@@ -91,8 +92,9 @@ def read_livelink(
     drop = rows.timecodes[0].semicolon if drop_frame is None else drop_frame
     notes: list[str] = []
     if rows.without_face:
-        notes.append(_without_face(rows.without_face))
-    times, kept, clock = _times(table, rows, rate, drop, notes)
+        notes.append(f"{_rows_called(rows.without_face)} left out: the app saw no face.")
+    clock = _clock(table, rows, rate, drop, notes)
+    times, kept = _times(table, rows, clock, notes)
     values, lines = np.array(rows.values)[kept], [rows.lines[row] for row in kept]
     weights = _weights(table, values, lines, clamp, notes)
     angles = _angles(table, values, lines, degrees)
@@ -150,36 +152,45 @@ def _is_zero(cells: Sequence[str], place: int) -> bool:
 
 
 def _numbers(table: Table, line: int, cells: Sequence[str], wanted: Sequence[int]) -> list[float]:
-    numbers: list[float] = []
-    for place in wanted:
-        try:
-            numbers.append(float(cells[place]))
-        except ValueError:
-            numbers.append(np.nan)
-        if not np.isfinite(numbers[-1]):
-            raise table.error(
-                line,
-                f"expected a number for {table.columns.titles[place]}, got "
-                f"{cells[place].strip()[:40]!r}; correct it or remove the row",
-            )
-    return numbers
-
-
-def _times(
-    table: Table, rows: _Rows, rate: float | None, drop: bool, notes: list[str]
-) -> tuple[FloatArray, list[int], timecode.Clock]:
-    """Seconds of the rows that are kept, from 0; which rows these are; how the timecode counts."""
     try:
-        if rate is None:
-            clock, guessed = timecode.infer_clock(rows.timecodes, drop)
-        else:
-            clock, guessed = timecode.make_clock(rate, drop), False
+        numbers = [float(cells[place]) for place in wanted]
+        if all(map(math.isfinite, numbers)):
+            return numbers
+    except ValueError:
+        pass
+    place = next(place for place in wanted if not _is_number(cells[place]))
+    raise table.error(
+        line,
+        f"expected a number for {table.columns.titles[place]}, got "
+        f"{cells[place].strip()[:40]!r}; correct it or remove the row",
+    )
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        return math.isfinite(float(cell))
+    except ValueError:
+        return False
+
+
+def _clock(
+    table: Table, rows: _Rows, rate: float | None, drop: bool, notes: list[str]
+) -> timecode.Clock:
+    if rate is not None:
+        return timecode.make_clock(rate, drop)
+    try:
+        clock, guessed = timecode.infer_clock(rows.timecodes, drop)
     except InputError as error:
-        if rate is not None:
-            raise
         raise FileFormatError(f"{table.name}: {error}") from error
     if guessed and len(rows.lines) > 1:
         notes.append(f"Its timecode is taken to count {clock.rate:.5g} frames a second.")
+    return clock
+
+
+def _times(
+    table: Table, rows: _Rows, clock: timecode.Clock, notes: list[str]
+) -> tuple[FloatArray, list[int]]:
+    """Seconds of the rows that are kept, from 0, and which rows these are."""
     frames: list[float] = []
     kept: list[int] = []
     repeated: list[int] = []
@@ -192,20 +203,20 @@ def _times(
         if frames and frame < frames[-1] - clock.day / 2:
             days += 1
             frame += clock.day
-        if frames and frame == frames[-1]:
+        if not frames or frame > frames[-1]:
+            frames.append(frame)
+            kept.append(row)
+        elif frame == frames[-1]:
             repeated.append(line)
-            continue
-        if frames and frame < frames[-1]:
+        else:
             raise table.error(
                 line,
                 f"expected a timecode after {rows.timecodes[kept[-1]].text}, got {code.text}; "
                 "put the rows in order",
             )
-        frames.append(frame)
-        kept.append(row)
     if repeated:
         notes.append(f"{_rows_called(repeated)} left out: a timecode that repeats.")
-    return (np.array(frames) - frames[0]) / clock.rate, kept, clock
+    return (np.array(frames) - frames[0]) / clock.rate, kept
 
 
 def _weights(
@@ -243,13 +254,10 @@ def _angles(table: Table, values: FloatArray, lines: Sequence[int], degrees: boo
     angles = np.zeros((len(values), len(ANGLE_NAMES)))
     for place, (source, sign) in enumerate(_SOURCES[name] for name in ANGLE_NAMES):
         if source in table.columns.angles:
-            angles[:, place] = sign * read[:, table.columns.angles.index(source)]
+            column = read[:, table.columns.angles.index(source)]
+            angles[:, place] = sign * column + 0.0  # no -0
     # An angle that passes pi goes on past it, or the frames between would turn all the way back.
     return np.unwrap(angles, axis=0)
-
-
-def _without_face(lines: Sequence[int]) -> str:
-    return f"{_rows_called(lines)} left out: the app saw no face."
 
 
 def _rows_called(lines: Sequence[int]) -> str:

@@ -155,8 +155,8 @@ def _numbers_in_a_second(timecodes: Sequence[Timecode], drop: bool) -> float:
     passed = np.diff(seconds) % 86400
     steps = np.diff(frames)[passed == 0]
     ends = passed == 1
-    if drop:  # the first numbers of a minute are missing
-        ends &= seconds[1:] % 60 != 0
+    if drop:  # the first numbers of most minutes are missing
+        ends &= (seconds[1:] % 60 != 0) | (seconds[1:] % 600 == 0)
     if not ends.any():
         return np.inf
     step = np.median(steps[steps > 0]) if (steps > 0).any() else 1.0

@@ -27,7 +27,7 @@ def extend(colours: FloatArray, weights: FloatArray) -> FloatArray:
         nothing at all is known.
     """
     weights = weights[..., None]
-    if min(colours.shape[:2]) == 1 or float(weights.min()) >= 1.0:
+    if max(colours.shape[:2]) == 1 or float(weights.min()) >= 1.0:
         return colours
     total = _halve(weights)
     mean = _halve(colours * weights) / np.maximum(total, 1e-12)

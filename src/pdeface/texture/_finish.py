@@ -11,27 +11,36 @@ from pdeface.texture._fill import extend
 from pdeface.texture._lattice import outline
 from pdeface.texture.warp import Engine, warp
 
-__all__ = ["finish", "trust"]
+__all__ = ["finish", "hair_beside", "trust"]
 
 FloatArray = NDArray[np.float64]
 
 INSET, FADE = 0.03, 0.07
 """Where the outline's pixels stop being trusted, and over what width, as parts of the texture."""
 
+BEYOND = 0.1
+"""How far beyond the border of the face, in radians, the widened outline lies."""
+
+SURELY_OTHER = 40.0
+"""Distance of two colours, of 255, that nobody takes for one."""
+
+FAINTEST = 0.02
+"""Alpha below which a colour is taken for none."""
+
 _COARSE = 256
 
 
-def trust(uv: FloatArray, shape: tuple[int, int]) -> FloatArray:
+def trust(uv: FloatArray, shape: tuple[int, int], hair: tuple[bool, bool]) -> FloatArray:
     """How far each texel can be trusted to show the face.
 
     1 inside the outline that the outer feature points draw (the sides of the face from the brows
-    to the chin, and the chin), falling smoothly to 0 on it. There is no limit above, and the
-    outline widens to the whole face above the brows: what a photo shows beside the forehead is
-    the hair that belongs there.
+    to the chin, and the chin), falling smoothly to 0 on it. There is no limit above. Where hair
+    is seen beside the forehead it belongs there: the outline widens above the brows.
 
     Args:
         uv: (5, 5, 2) the feature points on the face.
         shape: (height, width) of the texture.
+        hair: whether there is any on the subject's right and left, from :func:`hair_beside`.
 
     Returns:
         (height, width) weights in [0, 1].
@@ -39,22 +48,63 @@ def trust(uv: FloatArray, shape: tuple[int, int]) -> FloatArray:
     height, width = shape
     u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
     right, left, chin = outline(uv, u, v)
-    right, left = (
-        edge + np.clip(2.0 - 2.0 * u / uv[0, column, 0], 0.0, 1.0) * (border - edge)
-        for edge, column, border in ((right, 0, -0.1), (left, -1, np.pi + 0.1))
-    )
+    if hair[0]:
+        right = right + _above(u, uv[0, 0, 0]) * (-BEYOND - right)
+    if hair[1]:
+        left = left + _above(u, uv[0, -1, 0]) * (np.pi + BEYOND - left)
     sides = _fade((v - right[:, None]) / np.pi) * _fade((left[:, None] - v) / np.pi)
     return np.asarray(sides * _fade(chin - u[:, None]))
 
 
-def finish(
-    warped: NDArray[np.uint8], weights: FloatArray, engine: Engine = "auto"
-) -> NDArray[np.uint8]:
+def hair_beside(
+    warped: NDArray[Any], photo: NDArray[np.uint8], places: FloatArray, uv: FloatArray
+) -> tuple[bool, bool]:
+    """Whether what the photo shows right and left beside the forehead is not its background.
+
+    Told by the middle colours: of the texture's corner, and of the photo's border at that height.
+
+    Args:
+        warped: (H, W, 3 or 4) the texture.
+        photo: (h, w, 3 or 4).
+        places: (rows, columns, 2) positions in the photo of a lattice over the texture.
+        uv: (5, 5, 2) the feature points on the face.
+    """
+    height, width = warped.shape[:2]
+    found = []
+    for side, column in ((0, slice(0, 1)), (-1, slice(-1, None))):
+        u, v = uv[0, side]
+        rows = max(1, int(0.8 * u * height))
+        wide = max(1, int(0.7 * min(v, np.pi - v) / np.pi * width))
+        corner = warped[:rows, :wide] if side == 0 else warped[:rows, -wide:]
+        lattice_rows = max(1, int(u * len(places)))
+        y = np.clip(places[:lattice_rows, column, 1], 0, len(photo) - 1).astype(int)
+        border = max(1, photo.shape[1] // 32)
+        part = photo[y.min() : y.max() + 1]
+        background = part[:, :border] if side == 0 else part[:, -border:]
+        found.append(_differ(corner, background))
+    return found[0], found[1]
+
+
+def _differ(one: NDArray[Any], other: NDArray[Any]) -> bool:
+    if one.shape[2] == 4 and np.median(one[..., 3]) < 128:
+        return False  # nothing is seen there
+    one, other = (image[..., :3].reshape(-1, 3).astype(float) for image in (one, other))
+    apart = np.linalg.norm(np.median(one, axis=0) - np.median(other, axis=0))
+    spread = np.linalg.norm(other.std(axis=0))
+    return bool(apart > SURELY_OTHER + spread)
+
+
+def _above(u: FloatArray, brow: float) -> FloatArray:
+    """From 0 at the brow to 1 half-way to the top of the face."""
+    return np.clip(2.0 - 2.0 * u / brow, 0.0, 1.0)
+
+
+def finish(warped: NDArray[Any], weights: FloatArray, engine: Engine = "auto") -> NDArray[np.uint8]:
     """Fade what is not trusted into a smooth extension of what is.
 
     Args:
-        warped: (H, W, 3), or (H, W, 4) with colours multiplied by alpha, which is then a further
-            weight: 0 where the photo showed nothing.
+        warped: (H, W, 3) uint8, or (H, W, 4) floats, of which the first three are colours times
+            alpha; alpha (of 255) is then a further weight: 0 where the photo showed nothing.
         weights: (H, W) as from :func:`trust`.
 
     Returns:
@@ -66,9 +116,9 @@ def finish(
     colours: NDArray[Any] = warped[..., :3].astype(np.float32)
     if warped.shape[2] == 4:
         alpha = warped[..., 3:] / np.float32(255.0)
-        known = known * alpha
-        colours = np.divide(colours, alpha, out=np.zeros_like(colours), where=alpha > 0.0)
-    if float(known.min()) >= 1.0:
+        known = np.where(alpha > FAINTEST, known * np.minimum(alpha, 1.0), 0.0)
+        colours = np.clip(colours / np.maximum(alpha, FAINTEST), 0.0, 255.0)
+    if warped.dtype == np.uint8 and float(known.min()) >= 1.0:
         return warped[..., :3]
 
     def resized(image: NDArray[Any], to: tuple[int, ...]) -> NDArray[Any]:

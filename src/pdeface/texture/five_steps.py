@@ -86,11 +86,14 @@ def uv_texture(
     texel = np.array([shape[1] / np.pi, shape[0]])
     names = lattice_names(uv)
     warped = _warp_marked(photo, places, lattice[..., ::-1] * texel, shape, engine, names)
-    weights = _finish.trust(uv, shape) if finish else np.ones(shape)
+    weights = np.ones(shape)
+    if finish:
+        hair = _finish.hair_beside(warped, photo, places, uv)
+        weights = _finish.trust(uv, shape, hair)
     texture = _finish.finish(warped, weights, engine)
     return UVTexture(
         image=texture,
-        warped=warped[..., :3],
+        warped=np.clip(np.rint(warped[..., :3]), 0, 255).astype(np.uint8),
         photo=photo,
         points=points,
         grid=grid,
@@ -108,30 +111,31 @@ def _warp_marked(
     shape: tuple[int, int],
     engine: Engine,
     names: list[list[str]],
-) -> Pixels:
-    """Step 4; with alpha (and colours multiplied by it) if some of the photo is unknown.
+) -> NDArray[Any]:
+    """Step 4: (H, W, 3) uint8; or, if some of the photo is unknown, (H, W, 4) floats.
 
-    Unknown are transparent pixels, and everything outside a photo that cuts the face's edge off.
+    The floats are colours times alpha, so that no colour bleeds out of what is unseen: transparent
+    pixels, and everything outside a photo that cuts the face's edge off.
     """
-    low, high = source.min(axis=(0, 1)), source.max(axis=(0, 1))
     height, width = photo.shape[:2]
-    cut = bool((low < 0.0).any() or (high > (width, height)).any())
+    low = np.floor(source.min(axis=(0, 1))).astype(int) - 3
+    high = np.ceil(source.max(axis=(0, 1))).astype(int) + 3
+    cut = bool((low < 0).any() or (high > (width, height)).any())
     if photo.shape[2] == 4 or cut:
-        photo = _with_alpha(photo)
-    if cut:
+        low, high = np.maximum(low, 0), np.minimum(high, (width, height))
+        part = _with_alpha(photo[low[1] : high[1], low[0] : high[0]])
         # Beyond its border an image repeats its last pixels: a transparent border is enough.
-        photo = np.pad(photo, ((2, 2), (2, 2), (0, 0)))
-        source = source + 2.0
+        part = np.pad(part, ((2, 2), (2, 2), (0, 0)))
+        return warp(part, source - low + 2.0, target, shape, engine=engine, names=names)
     return warp(photo, source, target, shape, engine=engine, names=names)
 
 
-def _with_alpha(photo: Pixels) -> Pixels:
-    """(h, w, 4), colours multiplied by alpha, so that no colour bleeds out of what is unseen."""
-    if photo.shape[2] == 3:
-        return np.concatenate([photo, np.full_like(photo[..., :1], 255)], axis=2)
-    alpha = photo[..., 3:].astype(np.uint16)
-    colours = ((photo[..., :3] * alpha + 127) // 255).astype(np.uint8)
-    return np.concatenate([colours, photo[..., 3:]], axis=2)
+def _with_alpha(photo: Pixels) -> NDArray[np.float32]:
+    """(h, w, 4) floats, colours times alpha."""
+    result = np.full((*photo.shape[:2], 4), 255.0, np.float32)
+    result[..., : photo.shape[2]] = photo
+    result[..., :3] *= result[..., 3:] / np.float32(255.0)
+    return result
 
 
 def _size_for(points: FloatArray, uv: FloatArray) -> tuple[int, int]:

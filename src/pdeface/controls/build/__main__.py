@@ -1,4 +1,4 @@
-"""Measure expressions and identities: ``python -m pdeface.controls.build HEAD_FOLDER [-o FILE]``."""
+"""Measure expressions and identities: ``python -m pdeface.controls.build HEAD_FOLDER``."""
 
 from __future__ import annotations
 
@@ -30,6 +30,7 @@ IDENTITIES = 50
 """Identity modes kept of 100: they hold 98 per cent of the variance of the heads."""
 FAIRNESS, DAMPING = 2e-3, 0.5
 STEPS = 32767
+EDGE = 0.6
 
 
 def main() -> int:
@@ -68,7 +69,20 @@ class Sampler:
         """(U, V, 3) displacements of the samples, metres, from (vertices, 3) in centimetres."""
         moved = self._scan.links @ (offsets * CENTIMETRE)
         corners = moved[self._scan.triangles[self._triangle]]
-        return np.einsum("qc,qcx->qx", self._weights, corners).reshape(SAMPLES[0], -1, 3)
+        moved = np.einsum("qc,qcx->qx", self._weights, corners).reshape(SAMPLES[0], -1, 3)
+        return _closed(moved, self.v)
+
+
+def _closed(moved: FloatArray, v: FloatArray) -> FloatArray:
+    """Displacements that keep the edge of the face in the plane of reflection.
+
+    There z must stay as it is, or the curves would break and their Fourier modes ring; its
+    displacement at the edge is faded out over EDGE radians.
+    """
+    for away, first in ((v, 0), (np.pi - v, -1)):
+        fade = (1.0 - np.clip(away / EDGE, 0.0, 1.0) ** 2) ** 3
+        moved = moved - moved[:, first, None] * np.array([0.0, 0.0, 1.0]) * fade[:, None]
+    return moved
 
 
 def _opening(

@@ -1,0 +1,85 @@
+"""Every shape control by name, and the displacement that it stands for."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from functools import lru_cache
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.controls.control import Control
+from pdeface.controls.shape.fields import ShapeField
+from pdeface.controls.shape.frontal import FRONTAL
+from pdeface.controls.shape.head import HEAD
+from pdeface.controls.shape.mandible import MANDIBLE
+from pdeface.controls.shape.maxilla import MAXILLA
+from pdeface.controls.shape.nasal import NASAL
+from pdeface.controls.shape.orbital import ORBITAL
+from pdeface.controls.shape.sites import sites
+from pdeface.controls.shape.zygomatic import ZYGOMATIC
+from pdeface.curves import mirror_points
+from pdeface.errors import InputError
+from pdeface.template.layout import PAPER_ROWS
+
+__all__ = ["SHAPE_CONTROLS", "displacement"]
+
+FloatArray = NDArray[np.float64]
+
+_GROUPS: Mapping[str, tuple[ShapeField, ...]] = MappingProxyType(
+    {
+        "frontal": FRONTAL,
+        "orbital": ORBITAL,
+        "nasal": NASAL,
+        "zygomatic": ZYGOMATIC,
+        "maxilla": MAXILLA,
+        "mandible": MANDIBLE,
+        "head": HEAD,
+    }
+)
+
+SHAPE_CONTROLS: Mapping[str, Control] = MappingProxyType(
+    {field.name: field.control(group) for group, fields in _GROUPS.items() for field in fields}
+)
+"""The conformation controls by name, -1 to 1, grouped by the bones of the skull (section 2.3)."""
+
+_FIELDS = {field.name: field.field for fields in _GROUPS.values() for field in fields}
+
+
+@lru_cache(maxsize=256)
+def displacement(name: str, shape: tuple[int, int]) -> FloatArray:
+    """Displacement of K curves of M points by a shape control at +1.
+
+    Args:
+        name: one of :data:`SHAPE_CONTROLS`.
+        shape: (K, M); K = 27 n + 1 and M even.
+
+    Returns:
+        (K, M, 3) metres, read-only; closed by reflection like the curves.
+
+    Raises:
+        InputError: no such control, or curves on which the rows of the face have no place.
+    """
+    if name not in _FIELDS:
+        raise InputError(f"expected a shape control, got {name!r}; {_nearest(name)}")
+    curves, points = shape
+    if curves < PAPER_ROWS or (curves - 1) % (PAPER_ROWS - 1) or points < 4 or points % 2:
+        raise InputError(
+            "shape controls need 27 n + 1 curves (28, 55, 109, ...) of an even number of points, "
+            f"got {curves} x {points}; fit the face at such a level"
+        )
+    half = _FIELDS[name](sites((curves, points)))
+    closed = mirror_points(half)
+    closed.setflags(write=False)
+    return closed
+
+
+def _nearest(name: str) -> str:
+    """Advice on an unknown name."""
+    by_lower = {known.lower(): known for known in SHAPE_CONTROLS}
+    near = difflib.get_close_matches(name.lower(), by_lower, n=3, cutoff=0.5)
+    if near:
+        return f"did you mean {' or '.join(by_lower[each] for each in near)}?"
+    return f"the shape controls are {', '.join(SHAPE_CONTROLS)}"

@@ -1,0 +1,77 @@
+"""The nasal bones and the cartilage before them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.controls.shape.fields import ShapeField, both_sides, move, stretch, turn
+from pdeface.controls.shape.sites import MM, Sites, landmark
+from pdeface.controls.shape.windows import dome, fall, hill, rise
+
+__all__ = ["NASAL"]
+
+FloatArray = NDArray[np.float64]
+
+
+def _root() -> float:
+    """Height of the root of the nose, between the inner corners of the eyes and the brows."""
+    return landmark("upper_lid_fold")[1]
+
+
+def _tip() -> float:
+    return landmark("nose_tip")[1]
+
+
+def _base() -> float:
+    return landmark("subnasale")[1]
+
+
+def _across(sites: Sites) -> FloatArray:
+    """1 on the nose, 0 on cheeks and eyes: a window that is narrow between the eyes."""
+    width = 0.4 + 0.6 * fall(sites.y, _tip() + 2 * MM, _root() - 8 * MM)
+    return fall(sites.aside / width, 15 * MM, 36 * MM)
+
+
+def _length(sites: Sites) -> FloatArray:
+    base = _base()
+    along = fall(sites.y, base, _root() - 3 * MM)
+    above_lip = rise(sites.y, base - 15 * MM, base + 2 * MM)
+    return move(_across(sites) * along * above_lip, (0.0, -7 * MM, 1.7 * MM))
+
+
+def _width(sites: Sites) -> FloatArray:
+    up = hill(sites.y, _base() - 12 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
+    return stretch(_across(sites) * up, sites, landmark("nose_tip"), (0.24, 0.0, 0.0))
+
+
+def _bridge_height(sites: Sites) -> FloatArray:
+    root = _root()
+    up = hill(sites.y, _tip() - 2 * MM, _tip() + 17 * MM, root - 11 * MM, root + 11 * MM)
+    return move(up * fall(sites.aside, 3 * MM, 16 * MM), (0.0, 0.0, 5.5 * MM))
+
+
+def _tip_projection(sites: Sites) -> FloatArray:
+    up = hill(sites.y, _base() - 10 * MM, _tip() - 6 * MM, _tip() + 4 * MM, _root() - 9 * MM)
+    return move(up * fall(sites.aside, 7 * MM, 27 * MM), (0.0, 0.0, 6.5 * MM))
+
+
+def _tip_rotation(sites: Sites) -> FloatArray:
+    up = hill(sites.y, _base() - 12 * MM, _base() + 1 * MM, _tip() + 8 * MM, _root() - 7 * MM)
+    centre = (0.0, _tip() - 6 * MM, landmark("nose_tip")[2] - 25 * MM)
+    return turn(up * fall(sites.aside, 10 * MM, 30 * MM), sites, centre, (-0.27, 0.0, 0.0))
+
+
+def _nostril_width(sites: Sites) -> FloatArray:
+    wing = (17 * MM, _tip() - 3 * MM, 0.0)
+    return move(dome(sites.points, wing, (17 * MM, 20 * MM, np.inf), 0.15), (4 * MM, 0.0, 0.0))
+
+
+NASAL = (
+    ShapeField("noseLength", "long nose", _length),
+    ShapeField("noseWidth", "wide nose, from the bridge to the wings", _width),
+    ShapeField("noseBridgeHeight", "high bridge; at -1 it is a saddle", _bridge_height),
+    ShapeField("noseTipProjection", "tip of the nose far forward", _tip_projection),
+    ShapeField("noseTipRotation", "tip of the nose turned up", _tip_rotation),
+    ShapeField("nostrilWidth", "flared nostrils", both_sides(_nostril_width)),
+)

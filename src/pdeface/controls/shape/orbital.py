@@ -1,0 +1,50 @@
+"""The orbits: the eyes with their lids. Lids and mid-eye row move as one."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.controls.shape.fields import ShapeField, both_sides, move, stretch, turn
+from pdeface.controls.shape.sites import MM, Sites, landmark
+from pdeface.controls.shape.windows import dome
+
+__all__ = ["ORBITAL"]
+
+FloatArray = NDArray[np.float64]
+
+_LEFT_EYE = 0.684
+"""v / pi of the middle of the left eye."""
+
+
+def _eye() -> FloatArray:
+    return landmark("mid_eye", _LEFT_EYE)
+
+
+def _around_eye(sites: Sites, across: float, up: float, core: float) -> FloatArray:
+    return dome(sites.points, _eye(), (across, up, np.inf), core)
+
+
+def _size(sites: Sites) -> FloatArray:
+    window = _around_eye(sites, 30 * MM, 25 * MM, 0.5)
+    return stretch(window, sites, _eye(), (0.22, 0.22, 0.22))
+
+
+def _spacing(sites: Sites) -> FloatArray:
+    return move(_around_eye(sites, 34 * MM, 32 * MM, 0.48), (4.5 * MM, 0.0, 0.0))
+
+
+def _depth(sites: Sites) -> FloatArray:
+    return move(_around_eye(sites, 31 * MM, 26 * MM, 0.45), (0.0, 0.0, -5 * MM))
+
+
+def _tilt(sites: Sites) -> FloatArray:
+    return turn(_around_eye(sites, 32 * MM, 28 * MM, 0.5), sites, _eye(), (0.0, 0.0, 0.16))
+
+
+ORBITAL = (
+    ShapeField("eyeSize", "large eyes", both_sides(_size)),
+    ShapeField("eyeSpacing", "eyes far apart", both_sides(_spacing)),
+    ShapeField("eyeDepth", "deep-set eyes", both_sides(_depth)),
+    ShapeField("eyeTilt", "outer corners of the eyes high", both_sides(_tilt)),
+)

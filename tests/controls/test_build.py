@@ -1,0 +1,43 @@
+"""The command that measures the controls."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pdeface.controls.measured import DATA
+
+pytest.importorskip("igl", reason="needs the extra 'template'")
+
+
+def test_the_command_rebuilds_what_ships(shared_data: Path, tmp_path: Path) -> None:
+    target = tmp_path / "measured.npz"
+    command = [sys.executable, "-m", "pdeface.controls.build"]
+    command += [str(shared_data / "data" / "ict_facekit"), "-o", str(target)]
+    subprocess.run(command, check=True)
+    with np.load(target) as built, np.load(DATA) as shipped:
+        assert set(built.files) == set(shipped.files)
+        assert built["names"].tolist() == shipped["names"].tolist()
+        for part in ("smooth", "parting", "identity"):
+            scales = [f[f"{part}_scale"][:, None, None, None] for f in (built, shipped)]
+            # Two micrometres: the steps of the stored numbers.
+            difference = built[part] * scales[0] - shipped[part] * scales[1]
+            assert np.abs(difference).max() < 4e-6
+
+
+def test_splitting_keeps_the_whole_and_parts_nothing_beyond_the_corners() -> None:
+    from pdeface.controls.build.openings import Opening, split
+
+    v = np.linspace(0.0, np.pi, 184)
+    samples = np.random.default_rng(0).normal(size=(217, 184, 3))
+    mouth = Opening("mouth_seam_upper", "mouth_seam_lower", 1.2, np.pi - 1.2, 5.0)
+    smooth, parting = split(samples, v, [mouth])
+    np.testing.assert_allclose(smooth + parting, samples, atol=1e-15)
+    inside = (v > 1.4) & (v < np.pi - 1.4)
+    np.testing.assert_allclose(smooth[144, inside], smooth[152, inside], atol=1e-12)
+    assert not parting[:, (v < 1.2) | (v > np.pi - 1.2)].any()
+    assert not parting[: 8 * 13].any()
