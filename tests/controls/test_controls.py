@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,12 @@ EXPRESSIONS = [c.name for c in CONTROLS.values() if c.kind == "expression"]
 U, V = np.linspace(0, 1, 55)[:, None], np.linspace(0, np.pi, 81)
 
 
+@cache
+def alone(name: str) -> np.ndarray:
+    """Displacement of the surface by one control at full weight."""
+    return positions(**{name: 1.0}) - positions()
+
+
 def positions(**weights: float) -> np.ndarray:
     return pdeface.neutral().set(**weights).surface()(U, V)
 
@@ -31,9 +38,8 @@ def test_the_names_are_arkits(shared_data: Path) -> None:
 
 @given(st.dictionaries(st.sampled_from(EXPRESSIONS), st.floats(0, 1), min_size=1, max_size=5))
 def test_the_surface_is_linear_in_every_weight(weights: dict[str, float]) -> None:
-    base = positions()
-    together = positions(**weights) - base
-    one_by_one = sum(w * (positions(**{name: 1.0}) - base) for name, w in weights.items())
+    together = positions(**weights) - positions()
+    one_by_one = sum(w * alone(name) for name, w in weights.items())
     np.testing.assert_allclose(together, one_by_one, atol=1e-13)
 
 
@@ -85,7 +91,7 @@ def test_a_blink_closes_the_eye_and_leaves_the_other_open() -> None:
         upper, lower = (surface(r / 27, v) for r in (7, 9))
         return float(upper[1] - lower[1])
 
-    left, right = 0.66 * np.pi, 0.34 * np.pi
+    left, right = 0.69 * np.pi, 0.31 * np.pi
     assert gap(left) > 0.009
     assert abs(gap(left, eyeBlinkLeft=1.0)) < 0.0004
     assert gap(right, eyeBlinkLeft=1.0) == pytest.approx(gap(right), abs=1e-4)

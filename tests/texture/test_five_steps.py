@@ -297,3 +297,16 @@ def test_the_portrait_and_its_points_belong_together():
 
 def test_the_names_are_those_of_the_template():
     assert tuple(name for row in POINT_NAMES for name in row) == template.FEATURE_POINTS
+
+
+def test_a_smile_does_not_squash_the_forehead(face_points, photo):
+    """Raised mouth corners change the grid's scale; the nodes above the brows must not follow."""
+    smile = {
+        name: (x, y - 12 * ("mouth_corner" in name))
+        for name, (x, y) in face_points.positions.items()
+    }
+    heights = []
+    for points in (face_points, FeaturePoints(smile, (160, 200))):
+        mesh = uv_texture(photo, points, (64, 64)).source_mesh
+        heights.append((mesh[1, 3] - mesh[0, 3])[1])
+    assert heights[1] == pytest.approx(heights[0], rel=0.1)
