@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pdeface import errors
     from pdeface.curves import BoundaryCurves
-    from pdeface.face import Face, load, neutral
+    from pdeface.face import Face, load, neutral, random
     from pdeface.formats import export
     from pdeface.pde import PDESurface
     from pdeface.pictures import render
@@ -38,6 +38,7 @@ __all__ = [
     "export",
     "load",
     "neutral",
+    "random",
     "render",
 ]
 
@@ -53,6 +54,7 @@ _ROOMS = {
     "export": "pdeface.formats",
     "load": "pdeface.face",
     "neutral": "pdeface.face",
+    "random": "pdeface.face",
     "render": "pdeface.pictures",
 }
 

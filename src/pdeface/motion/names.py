@@ -5,23 +5,12 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from pdeface.controls import ARKIT
 from pdeface.errors import InputError
 
 __all__ = ["ANGLE_NAMES", "ARKIT_NAMES", "PAIRED", "both_sides", "did_you_mean"]
 
-_IN_ORDER = """
-    eyeBlinkLeft eyeLookDownLeft eyeLookInLeft eyeLookOutLeft eyeLookUpLeft eyeSquintLeft
-    eyeWideLeft eyeBlinkRight eyeLookDownRight eyeLookInRight eyeLookOutRight eyeLookUpRight
-    eyeSquintRight eyeWideRight jawForward jawLeft jawRight jawOpen mouthClose mouthFunnel
-    mouthPucker mouthLeft mouthRight mouthSmileLeft mouthSmileRight mouthFrownLeft mouthFrownRight
-    mouthDimpleLeft mouthDimpleRight mouthStretchLeft mouthStretchRight mouthRollLower
-    mouthRollUpper mouthShrugLower mouthShrugUpper mouthPressLeft mouthPressRight
-    mouthLowerDownLeft mouthLowerDownRight mouthUpperUpLeft mouthUpperUpRight browDownLeft
-    browDownRight browInnerUp browOuterUpLeft browOuterUpRight cheekPuff cheekSquintLeft
-    cheekSquintRight noseSneerLeft noseSneerRight tongueOut
-    """
-
-ARKIT_NAMES = tuple(_IN_ORDER.split())
+ARKIT_NAMES = ARKIT
 """The blendshapes of Apple's ARKit, in its order; left and right are the subject's."""
 
 ANGLE_NAMES = tuple(

@@ -18,11 +18,14 @@ FloatArray = NDArray[np.float64]
 INSET, FADE = 0.03, 0.07
 """Where the outline's pixels stop being trusted, and over what width, as parts of the texture."""
 
-BEYOND = 0.1
-"""How far beyond the border of the face, in radians, the widened outline lies."""
+HAIRLINE = 0.6
+"""Over what part of the forehead, upwards from the brow, hair beside it comes to be trusted."""
 
 SURELY_OTHER = 40.0
 """Distance of two colours, of 255, that nobody takes for one."""
+
+SKIN_SPREAD = 60.0
+"""How far the colours of one person's skin in one photo spread, of 255."""
 
 FAINTEST = 0.02
 """Alpha below which a colour is taken for none."""
@@ -35,7 +38,7 @@ def trust(uv: FloatArray, shape: tuple[int, int], hair: tuple[bool, bool]) -> Fl
 
     1 inside the outline that the outer feature points draw (the sides of the face from the brows
     to the chin, and the chin), falling smoothly to 0 on it. There is no limit above. Where hair
-    is seen beside the forehead it belongs there: the outline widens above the brows.
+    is seen beside the forehead it belongs there, and is trusted more and more above the brows.
 
     Args:
         uv: (5, 5, 2) the feature points on the face.
@@ -48,11 +51,11 @@ def trust(uv: FloatArray, shape: tuple[int, int], hair: tuple[bool, bool]) -> Fl
     height, width = shape
     u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
     right, left, chin = outline(uv, u, v)
-    if hair[0]:
-        right = right + _above(u, uv[0, 0, 0]) * (-BEYOND - right)
-    if hair[1]:
-        left = left + _above(u, uv[0, -1, 0]) * (np.pi + BEYOND - left)
-    sides = _fade((v - right[:, None]) / np.pi) * _fade((left[:, None] - v) / np.pi)
+    sides = np.ones(shape)
+    for edge, column, sign, seen in ((right, 0, 1.0, hair[0]), (left, -1, -1.0, hair[1])):
+        inside = _fade(sign * (v - edge[:, None]) / np.pi)
+        beside = _smooth_step((1.0 - u / uv[0, column, 0]) / HAIRLINE)[:, None]
+        sides *= np.maximum(inside, beside) if seen else inside
     return np.asarray(sides * _fade(chin - u[:, None]))
 
 
@@ -94,18 +97,16 @@ def _differ(one: NDArray[Any], other: NDArray[Any]) -> bool:
     return bool(apart > SURELY_OTHER + spread)
 
 
-def _above(u: FloatArray, brow: float) -> FloatArray:
-    """From 0 at the brow to 1 half-way to the top of the face."""
-    return np.clip(2.0 - 2.0 * u / brow, 0.0, 1.0)
-
-
-def finish(warped: NDArray[Any], weights: FloatArray, engine: Engine = "auto") -> NDArray[np.uint8]:
+def finish(
+    warped: NDArray[Any], weights: FloatArray, brow: float = 0.0, engine: Engine = "auto"
+) -> NDArray[np.uint8]:
     """Fade what is not trusted into a smooth extension of what is.
 
     Args:
         warped: (H, W, 3) uint8, or (H, W, 4) floats, of which the first three are colours times
             alpha; alpha (of 255) is then a further weight: 0 where the photo showed nothing.
         weights: (H, W) as from :func:`trust`.
+        brow: u of the brows: above them hair may spread, below them skin alone.
 
     Returns:
         (H, W, 3) opaque colours.
@@ -127,13 +128,32 @@ def finish(warped: NDArray[Any], weights: FloatArray, engine: Engine = "auto") -
     # What is filled in is smooth: a coarse image holds all of it.
     small = resized(known, shape)
     coarse = resized(colours * known, shape) / np.maximum(small, 1e-6)
-    guess = resized(extend(coarse, np.clip(small[..., 0], 0.0, 1.0)), (height, width))
+    sure = np.clip(small[..., 0], 0.0, 1.0)
+    guess = resized(extend(coarse, sure * _like_skin(coarse, sure, brow)), (height, width))
     result = known * colours + (1.0 - known) * guess
     return np.asarray(np.clip(np.rint(result), 0, 255), dtype=np.uint8)
 
 
+def _like_skin(colours: NDArray[Any], known: NDArray[Any], brow: float) -> NDArray[Any]:
+    """(H, W) how near each colour below the brows comes to the face's middle one, which is skin.
+
+    Brows, shadow and hair belong where the photo shows them, and are not to spread from there.
+    """
+    middle = np.median(colours[known > 0.5 * known.max()], axis=0)
+    apart = np.linalg.norm(colours - middle, axis=-1) / SKIN_SPREAD
+    # Never nothing: where all is unlike, all counts alike.
+    like = np.maximum(np.exp(-(apart**2)), 1e-3)
+    u = np.arange(0.5, len(colours)) / len(colours)
+    above = _smooth_step((1.0 - u / brow) / HAIRLINE)[:, None]
+    return np.asarray(above + (1.0 - above) * like, dtype=np.float32)
+
+
 def _fade(inside: FloatArray) -> FloatArray:
-    t = np.clip((inside - INSET) / FADE, 0.0, 1.0)
+    return _smooth_step((inside - INSET) / FADE)
+
+
+def _smooth_step(t: FloatArray) -> FloatArray:
+    t = np.clip(t, 0.0, 1.0)
     return np.asarray(t * t * (3.0 - 2.0 * t))
 
 

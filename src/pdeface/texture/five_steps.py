@@ -90,7 +90,7 @@ def uv_texture(
     if finish:
         hair = _finish.hair_beside(warped, photo, places, uv)
         weights = _finish.trust(uv, shape, hair)
-    texture = _finish.finish(warped, weights, engine)
+    texture = _finish.finish(warped, weights, float(uv[0, :, 0].mean()), engine)
     return UVTexture(
         image=texture,
         warped=np.clip(np.rint(warped[..., :3]), 0, 255).astype(np.uint8),

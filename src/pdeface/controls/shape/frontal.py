@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.controls.shape.fields import ShapeField, move, stretch
+from pdeface.controls.shape.fields import ShapeField, both_sides, move, stretch
 from pdeface.controls.shape.sites import MM, Sites, landmark
-from pdeface.controls.shape.windows import fall, hill, rise
+from pdeface.controls.shape.windows import dome, fall, rise
 
 __all__ = ["FRONTAL"]
 
@@ -16,8 +16,8 @@ FloatArray = NDArray[np.float64]
 
 def _protrusion(sites: Sites) -> FloatArray:
     brow = landmark("brow")[1]
-    window = rise(sites.y, brow + 2 * MM, brow + 32 * MM) * fall(sites.aside, 30 * MM, 74 * MM)
-    return move(window * rise(sites.depth, 0.0, 50 * MM), (0.0, 0.0, 9 * MM))
+    window = rise(sites.y, brow - 6 * MM, brow + 42 * MM) * fall(sites.aside, 26 * MM, 76 * MM)
+    return move(window * rise(sites.depth, 0.0, 50 * MM), (0.0, 0.0, 10 * MM))
 
 
 def _height(sites: Sites) -> FloatArray:
@@ -27,18 +27,18 @@ def _height(sites: Sites) -> FloatArray:
 
 def _width(sites: Sites) -> FloatArray:
     brow = landmark("brow")
-    return stretch(rise(sites.y, brow[1] - 20 * MM, brow[1] + 18 * MM), sites, brow, (0.11, 0, 0))
+    return stretch(rise(sites.y, brow[1] - 32 * MM, brow[1] + 32 * MM), sites, brow, (0.11, 0, 0))
 
 
 def _brow_ridge(sites: Sites) -> FloatArray:
-    brow = landmark("brow")[1]
-    window = hill(sites.y, brow - 17 * MM, brow - 3 * MM, brow + 2 * MM, brow + 22 * MM)
-    return move(window * fall(sites.aside, 26 * MM, 58 * MM), (0.0, -1 * MM, 5.5 * MM))
+    brow = (25 * MM, landmark("brow")[1] + 4 * MM, 0.0)
+    window = dome(sites.points, brow, (38 * MM, 25 * MM, np.inf))
+    return move(window, (0.0, -0.5 * MM, 5 * MM))
 
 
 FRONTAL = (
     ShapeField("foreheadProtrusion", "forehead bulges forward; at -1 it slopes back", _protrusion),
     ShapeField("foreheadHeight", "high forehead", _height),
     ShapeField("foreheadWidth", "wide forehead and temples", _width),
-    ShapeField("browRidge", "heavy brow ridge", _brow_ridge),
+    ShapeField("browRidge", "heavy brow ridge", both_sides(_brow_ridge)),
 )

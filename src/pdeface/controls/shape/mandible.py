@@ -20,13 +20,13 @@ def _lip() -> float:
 
 def _jaw_width(sites: Sites) -> FloatArray:
     mouth = landmark("mouth_seam_upper")[1]
-    window = rise(sites.x, 22 * MM, 56 * MM) * fall(sites.y, mouth - 3 * MM, mouth + 35 * MM)
+    window = rise(sites.x, 20 * MM, 58 * MM) * fall(sites.y, mouth - 8 * MM, mouth + 42 * MM)
     return move(window, (8 * MM, 0.0, 0.0))
 
 
 def _jaw_angle(sites: Sites) -> FloatArray:
     mouth = landmark("mouth_seam_upper")[1]
-    window = rise(sites.x, 24 * MM, 54 * MM) * fall(sites.y, mouth - 11 * MM, mouth + 25 * MM)
+    window = rise(sites.x, 14 * MM, 60 * MM) * fall(sites.y, mouth - 14 * MM, mouth + 30 * MM)
     return move(window, (1.5 * MM, -9 * MM, 0.0))
 
 
@@ -38,14 +38,14 @@ def _chin_protrusion(sites: Sites) -> FloatArray:
 
 def _chin_height(sites: Sites) -> FloatArray:
     lip = _lip()
-    window = fall(sites.y, lip - 38 * MM, lip - 1 * MM) * fall(sites.aside, 30 * MM, 64 * MM)
+    window = fall(sites.y, lip - 38 * MM, lip - 1 * MM) * fall(sites.aside, 16 * MM, 66 * MM)
     return move(window, (0.0, -9 * MM, 0.0))
 
 
 def _chin_width(sites: Sites) -> FloatArray:
     lip = _lip()
-    window = fall(sites.y, lip - 22 * MM, lip - 2 * MM) * fall(sites.aside, 18 * MM, 50 * MM)
-    return stretch(window, sites, landmark("chin"), (0.35, 0.0, 0.0))
+    window = fall(sites.y, lip - 28 * MM, lip - 2 * MM) * fall(sites.aside, 14 * MM, 56 * MM)
+    return stretch(window, sites, landmark("chin"), (0.3, 0.0, 0.0))
 
 
 MANDIBLE = (

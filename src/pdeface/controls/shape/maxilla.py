@@ -23,10 +23,12 @@ def _mouth() -> FloatArray:
 def _width(sites: Sites) -> FloatArray:
     mouth = _mouth()
     up = hill(
-        sites.y, mouth[1] - 24 * MM, mouth[1] - 9 * MM, mouth[1] + 9 * MM, mouth[1] + 24 * MM
+        sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 8 * MM, mouth[1] + 26 * MM
     )
-    window = up * fall(sites.aside, 26 * MM, 58 * MM)
-    return stretch(window, sites, mouth, (0.24, 0.0, 0.0))
+    window = up * fall(sites.aside, 25 * MM, 64 * MM)
+    # Along the arch of the teeth: straight to the side, the corners would leave the cheeks.
+    arch = move(-window * sites.x**2 / (50 * MM), (0.0, 0.0, 1.0))
+    return 0.22 * (stretch(window, sites, mouth, (1.0, 0.0, 0.0)) + arch)
 
 
 def _protrusion(sites: Sites) -> FloatArray:

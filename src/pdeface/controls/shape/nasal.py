@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from pdeface.controls.shape.fields import ShapeField, both_sides, move, stretch, turn
 from pdeface.controls.shape.sites import MM, Sites, landmark
-from pdeface.controls.shape.windows import dome, fall, hill, rise
+from pdeface.controls.shape.windows import dome, fall, hill
 
 __all__ = ["NASAL"]
 
@@ -34,15 +34,15 @@ def _across(sites: Sites) -> FloatArray:
 
 
 def _length(sites: Sites) -> FloatArray:
-    base = _base()
-    along = fall(sites.y, base, _root() - 3 * MM)
-    above_lip = rise(sites.y, base - 15 * MM, base + 2 * MM)
-    return move(_across(sites) * along * above_lip, (0.0, -7 * MM, 1.7 * MM))
+    base, root = _base(), _root()
+    up = hill(sites.y, base - 15 * MM, base + 2 * MM, root - 1 * MM, root + 20 * MM)
+    along = 1.2 * fall(sites.y, base, root - 1 * MM) - 0.2
+    return move(_across(sites) * up * along, (0.0, -6 * MM, 1.5 * MM))
 
 
 def _width(sites: Sites) -> FloatArray:
     up = hill(sites.y, _base() - 12 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
-    return stretch(_across(sites) * up, sites, landmark("nose_tip"), (0.24, 0.0, 0.0))
+    return stretch(_across(sites) * up, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
 
 
 def _bridge_height(sites: Sites) -> FloatArray:
@@ -64,7 +64,7 @@ def _tip_rotation(sites: Sites) -> FloatArray:
 
 def _nostril_width(sites: Sites) -> FloatArray:
     wing = (17 * MM, _tip() - 3 * MM, 0.0)
-    return move(dome(sites.points, wing, (17 * MM, 20 * MM, np.inf), 0.15), (4 * MM, 0.0, 0.0))
+    return move(dome(sites.points, wing, (17 * MM, 22 * MM, np.inf), 0.1), (3.2 * MM, 0.0, 0.0))
 
 
 NASAL = (

@@ -26,8 +26,8 @@ def _around_eye(sites: Sites, across: float, up: float, core: float) -> FloatArr
 
 
 def _size(sites: Sites) -> FloatArray:
-    window = _around_eye(sites, 30 * MM, 25 * MM, 0.5)
-    return stretch(window, sites, _eye(), (0.22, 0.22, 0.22))
+    window = _around_eye(sites, 33 * MM, 30 * MM, 0.45)
+    return stretch(window, sites, _eye(), (0.19, 0.19, 0.19))
 
 
 def _spacing(sites: Sites) -> FloatArray:
@@ -35,7 +35,8 @@ def _spacing(sites: Sites) -> FloatArray:
 
 
 def _depth(sites: Sites) -> FloatArray:
-    return move(_around_eye(sites, 31 * MM, 26 * MM, 0.45), (0.0, 0.0, -5 * MM))
+    socket = _eye() - (0.0, 5 * MM, 0.0)
+    return move(dome(sites.points, socket, (36 * MM, 33 * MM, np.inf), 0.3), (0.0, 0.0, -4.5 * MM))
 
 
 def _tilt(sites: Sites) -> FloatArray:

@@ -78,13 +78,23 @@ def mirror_z() -> float:
 
 @lru_cache(maxsize=16)
 def sites(shape: tuple[int, int]) -> Sites:
-    """Where the (K, M/2) data points of the front halves lie on the neutral face."""
+    """Where the (K, M/2) data points of the front halves lie on the neutral face, with neighbours.
+
+    Returns:
+        (5, 5, K, M/2) places: :data:`TAPS` about each data point across u, and along v.
+    """
     v = curve_parameters(shape[1])[: shape[1] // 2]
-    points = _on_neutral(np.linspace(0.0, 1.0, shape[0]), v)
+    u = np.linspace(0.0, 1.0, shape[0])
+    steps = 0.5 * np.arange(-2.0, 3.0)
+    # Nothing lies beyond the first and the last curve: there the neighbours draw together.
+    reach = np.minimum(1.0 / (PAPER_ROWS - 1.0), np.minimum(u, 1.0 - u))
+    us = np.clip(u + steps[:, None] * reach, 0.0, 1.0)
+    vs = v + steps[:, None] * (2.0 * np.pi / LEVELS[_LEVEL][1])
+    points = _on_neutral(us.ravel(), vs.ravel()).reshape(*us.shape, *vs.shape, 3).swapaxes(1, 2)
     # The face is symmetrical but for rounding; what is made from it shall be so to the last bit.
-    points = 0.5 * (points + _SIDES * points[:, ::-1])
-    rows = np.linspace(0.0, PAPER_ROWS - 1.0, shape[0])[:, None]
-    return Sites(points, np.broadcast_to(rows, points.shape[:2]))
+    points = 0.5 * (points + _SIDES * points[:, ::-1, :, ::-1])
+    rows = (PAPER_ROWS - 1.0) * us[:, None, :, None]
+    return Sites(points, np.broadcast_to(rows, points.shape[:-1]))
 
 
 @lru_cache(maxsize=64)

@@ -17,14 +17,14 @@ FloatArray = NDArray[np.float64]
 def _cheekbone_width(sites: Sites) -> FloatArray:
     # As far back as the ear: the arch of the bone ends there.
     bone = landmark("nose_ridge")[1] + 3 * MM
-    up = hill(sites.y, bone - 39 * MM, bone - 6 * MM, bone + 6 * MM, bone + 37 * MM)
-    return move(up * rise(sites.x, 32 * MM, 64 * MM), (6.5 * MM, 0.0, 0.0))
+    up = hill(sites.y, bone - 54 * MM, bone - 4 * MM, bone + 4 * MM, bone + 52 * MM)
+    return move(up * rise(sites.x, 28 * MM, 66 * MM), (6.5 * MM, 0.0, 0.0))
 
 
 def _cheek_fullness(sites: Sites) -> FloatArray:
-    cheek = (44 * MM, landmark("subnasale")[1] + 2 * MM, 90 * MM)
-    window = dome(sites.points, cheek, (30 * MM, 36 * MM, 45 * MM), 0.1)
-    return move(window, (4 * MM, -0.5 * MM, 6 * MM))
+    cheek = (46 * MM, landmark("subnasale")[1] + 2 * MM, 90 * MM)
+    window = dome(sites.points, cheek, (32 * MM, 40 * MM, 60 * MM), 0.0)
+    return move(window, (4 * MM, -0.5 * MM, 5.5 * MM))
 
 
 ZYGOMATIC = (

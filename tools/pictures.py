@@ -1,0 +1,75 @@
+"""Draw the pictures of the README and the docs: ``python tools/pictures.py``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+import pdeface
+from pdeface.pictures import contact_sheet, demo_sheet, render
+from pdeface.texture import portrait, uv_texture
+
+OUT = Path(__file__).resolve().parents[1] / "docs" / "pictures"
+EXPRESSIONS = {
+    "neutral": {},
+    "blink": {"eyeBlinkLeft": 1.0, "eyeBlinkRight": 1.0},
+    "smile": {"mouthSmileLeft": 1.0, "mouthSmileRight": 1.0},
+    "jaw open": {"jawOpen": 1.0},
+    "funnel": {"mouthFunnel": 1.0},
+    "surprise": {
+        **{"browInnerUp": 1.0, "browOuterUpLeft": 1.0, "browOuterUpRight": 1.0, "jawOpen": 0.3},
+        **{"eyeWideLeft": 1.0, "eyeWideRight": 1.0},
+    },
+}
+
+
+def save(pixels: np.ndarray, name: str, width: int) -> None:
+    image = Image.fromarray(pixels)
+    height = round(image.height * width / image.width)
+    image = image.resize((width, height), Image.Resampling.LANCZOS).convert("RGB")
+    image.save(OUT / name, optimize=True)
+    print(f"{name}: {(OUT / name).stat().st_size / 1024:.0f} kB")
+
+
+def levels() -> np.ndarray:
+    rows, captions = [], []
+    for level in ("28x46", "55x92", "109x184"):
+        face = pdeface.neutral(level)
+        rows.append(
+            [
+                render(face, view=view, style="shaded", light="raking", mesh=(541, 321), size=(480, 600))
+                for view in ("front", "three-quarter", "profile")
+            ]
+        )  # fmt: skip
+        captions.append([f"{level}, {view}" for view in ("front", "three-quarter", "profile")])
+    return contact_sheet(rows, captions)
+
+
+def expressions(face: pdeface.Face) -> np.ndarray:
+    people = [face, pdeface.random(4), pdeface.random(5)]
+    rows, captions = [], []
+    for person in people:
+        style = "textured" if person.texture is not None else "shaded"
+        rows.append(
+            [
+                render(person.set(**weights), view=20, style=style, mesh=(217, 161), size=(360, 450))
+                for weights in EXPRESSIONS.values()
+            ]
+        )  # fmt: skip
+        captions.append(list(EXPRESSIONS))
+    return contact_sheet(rows, captions)
+
+
+def main() -> None:
+    OUT.mkdir(parents=True, exist_ok=True)
+    image, points = portrait()
+    face = pdeface.neutral().with_texture(uv_texture(image, points).image)
+    save(demo_sheet(face), "demo.png", 1320)
+    save(levels(), "levels.png", 1200)
+    save(expressions(face), "expressions.png", 1320)
+
+
+if __name__ == "__main__":
+    main()
