@@ -24,6 +24,7 @@ Json = dict[str, Any]
 
 _TARGETS = {"vertices": 34962, "indices": 34963}
 _COMPONENTS = {"uint8": 5121, "uint16": 5123, "uint32": 5125, "float32": 5126}
+_INDEX_TYPES = (np.uint8, np.uint16, np.uint32)
 _SHAPES = {(): "SCALAR", (2,): "VEC2", (3,): "VEC3", (4,): "VEC4", (4, 4): "MAT4"}
 _LARGEST_GLB = 0xFFFFFFFF
 
@@ -70,16 +71,42 @@ class GltfBuilder:
             target: what a graphics card does with it.
             bounds: state minimum and maximum, as glTF demands of positions and of times.
         """
-        values = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
-        return self.add(
-            "accessors",
-            bufferView=self.add_view(values.tobytes(), target),
-            componentType=_COMPONENTS[values.dtype.name],
-            count=len(values),
-            type=_SHAPES[values.shape[1:]],
-            min=np.atleast_1d(values.min(axis=0)).tolist() if bounds else None,
-            max=np.atleast_1d(values.max(axis=0)).tolist() if bounds else None,
-        )
+        view = self.add_view(_bytes(values), target)
+        return self.add("accessors", bufferView=view, **_described(values, bounds))
+
+    def add_differences(
+        self, values: NDArray[np.float32], nothing: float, *, bounds: bool = False
+    ) -> int:
+        """Add (n, 3) differences, most of them perhaps too small to matter.
+
+        Only those that matter are stored (glTF's sparse accessor, the others being 0), unless
+        all of them take fewer bytes.
+
+        Args:
+            values: vectors.
+            nothing: a vector up to this length may become 0.
+            bounds: state minimum and maximum.
+        """
+        kept = np.flatnonzero(np.einsum("ij,ij->i", values, values) > nothing * nothing)
+        index_type = next(t for t in _INDEX_TYPES if len(values) - 1 <= np.iinfo(t).max)
+        stored = values[kept]
+        if len(kept) * (values.itemsize * 3 + index_type().itemsize) >= values.nbytes:
+            return self.add_accessor(values, "vertices", bounds=bounds)
+        # The accessor's bounds count the zeros in: there is at least one.
+        extremes = np.concatenate([stored, np.zeros((1, 3), values.dtype)])
+        described = {**_described(extremes, bounds), "count": len(values)}
+        if len(kept) == 0:  # an accessor without data is all zeros
+            return self.add("accessors", **described)
+        indices = kept.astype(index_type)
+        sparse = {
+            "count": len(kept),
+            "indices": {
+                "bufferView": self.add_view(_bytes(indices)),
+                "componentType": _COMPONENTS[indices.dtype.name],
+            },
+            "values": {"bufferView": self.add_view(_bytes(stored))},
+        }
+        return self.add("accessors", **described, sparse=sparse)
 
     def add_indices(self, triangles: NDArray[Any], vertex_count: int) -> int:
         """Add (T, 3) indices in the smallest type that graphics cards like."""
@@ -112,3 +139,18 @@ class GltfBuilder:
     def _json(self, buffer: Json) -> bytes:
         document = {"asset": self.asset, "scene": 0, **self._lists, "buffers": [buffer]}
         return json.dumps(document, separators=(",", ":"), allow_nan=False).encode("ascii")
+
+
+def _bytes(values: NDArray[Any]) -> bytes:
+    return values.astype(values.dtype.newbyteorder("<"), copy=False).tobytes()
+
+
+def _described(values: NDArray[Any], bounds: bool) -> Json:
+    """What an accessor says of its values."""
+    return {
+        "componentType": _COMPONENTS[values.dtype.name],
+        "count": len(values),
+        "type": _SHAPES[values.shape[1:]],
+        "min": np.atleast_1d(values.min(axis=0)).tolist() if bounds else None,
+        "max": np.atleast_1d(values.max(axis=0)).tolist() if bounds else None,
+    }

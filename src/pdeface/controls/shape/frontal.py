@@ -16,8 +16,8 @@ FloatArray = NDArray[np.float64]
 
 def _protrusion(sites: Sites) -> FloatArray:
     brow = landmark("brow")[1]
-    window = rise(sites.y, brow - 6 * MM, brow + 42 * MM) * fall(sites.aside, 26 * MM, 76 * MM)
-    return move(window * rise(sites.depth, 0.0, 50 * MM), (0.0, 0.0, 10 * MM))
+    window = rise(sites.y, brow - 6 * MM, brow + 60 * MM) * fall(sites.aside, 26 * MM, 76 * MM)
+    return move(window * rise(sites.depth, 0.0, 50 * MM), (0.0, 0.0, 11.5 * MM))
 
 
 def _height(sites: Sites) -> FloatArray:

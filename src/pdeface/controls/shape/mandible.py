@@ -20,13 +20,13 @@ def _lip() -> float:
 
 def _jaw_width(sites: Sites) -> FloatArray:
     mouth = landmark("mouth_seam_upper")[1]
-    window = rise(sites.x, 20 * MM, 58 * MM) * fall(sites.y, mouth - 8 * MM, mouth + 42 * MM)
+    window = rise(sites.x, 23 * MM, 60 * MM) * fall(sites.y, mouth - 8 * MM, mouth + 42 * MM)
     return move(window, (8 * MM, 0.0, 0.0))
 
 
 def _jaw_angle(sites: Sites) -> FloatArray:
     mouth = landmark("mouth_seam_upper")[1]
-    window = rise(sites.x, 14 * MM, 60 * MM) * fall(sites.y, mouth - 14 * MM, mouth + 30 * MM)
+    window = rise(sites.x, 21 * MM, 62 * MM) * fall(sites.y, mouth - 14 * MM, mouth + 30 * MM)
     return move(window, (1.5 * MM, -9 * MM, 0.0))
 
 

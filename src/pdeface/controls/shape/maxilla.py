@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from pdeface.controls.shape.fields import ShapeField, move, stretch
 from pdeface.controls.shape.sites import MM, Sites, landmark
-from pdeface.controls.shape.windows import fall, hill
+from pdeface.controls.shape.windows import fall, hill, rise
 from pdeface.template.layout import ROWS
 
 __all__ = ["MAXILLA"]
@@ -25,7 +25,7 @@ def _width(sites: Sites) -> FloatArray:
     up = hill(
         sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 8 * MM, mouth[1] + 26 * MM
     )
-    window = up * fall(sites.aside, 25 * MM, 64 * MM)
+    window = up * fall(sites.aside, 25 * MM, 62 * MM) * rise(sites.depth, 10 * MM, 60 * MM)
     # Along the arch of the teeth: straight to the side, the corners would leave the cheeks.
     arch = move(-window * sites.x**2 / (50 * MM), (0.0, 0.0, 1.0))
     return 0.22 * (stretch(window, sites, mouth, (1.0, 0.0, 0.0)) + arch)

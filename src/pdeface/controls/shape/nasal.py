@@ -27,22 +27,22 @@ def _base() -> float:
     return landmark("subnasale")[1]
 
 
-def _across(sites: Sites) -> FloatArray:
-    """1 on the nose, 0 on cheeks and eyes: a window that is narrow between the eyes."""
+def _across(sites: Sites, inner: float, outer: float) -> FloatArray:
+    """From 1 on the nose to 0 on cheeks and eyes: a window that is narrow between the eyes."""
     width = 0.4 + 0.6 * fall(sites.y, _tip() + 2 * MM, _root() - 8 * MM)
-    return fall(sites.aside / width, 15 * MM, 36 * MM)
+    return fall(sites.aside / width, inner, outer)
 
 
 def _length(sites: Sites) -> FloatArray:
     base, root = _base(), _root()
-    up = hill(sites.y, base - 15 * MM, base + 2 * MM, root - 1 * MM, root + 20 * MM)
+    up = hill(sites.y, base - 13 * MM, base + 3 * MM, root - 1 * MM, root + 20 * MM)
     along = 1.2 * fall(sites.y, base, root - 1 * MM) - 0.2
-    return move(_across(sites) * up * along, (0.0, -6 * MM, 1.5 * MM))
+    return move(_across(sites, 15 * MM, 36 * MM) * up * along, (0.0, -6 * MM, 1.5 * MM))
 
 
 def _width(sites: Sites) -> FloatArray:
     up = hill(sites.y, _base() - 12 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
-    return stretch(_across(sites) * up, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
+    return stretch(_across(sites, 15 * MM, 36 * MM) * up, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
 
 
 def _bridge_height(sites: Sites) -> FloatArray:
@@ -53,13 +53,13 @@ def _bridge_height(sites: Sites) -> FloatArray:
 
 def _tip_projection(sites: Sites) -> FloatArray:
     up = hill(sites.y, _base() - 10 * MM, _tip() - 6 * MM, _tip() + 4 * MM, _root() - 9 * MM)
-    return move(up * fall(sites.aside, 7 * MM, 27 * MM), (0.0, 0.0, 6.5 * MM))
+    return move(up * _across(sites, 7 * MM, 27 * MM), (0.0, 0.0, 6.5 * MM))
 
 
 def _tip_rotation(sites: Sites) -> FloatArray:
     up = hill(sites.y, _base() - 12 * MM, _base() + 1 * MM, _tip() + 8 * MM, _root() - 7 * MM)
     centre = (0.0, _tip() - 6 * MM, landmark("nose_tip")[2] - 25 * MM)
-    return turn(up * fall(sites.aside, 10 * MM, 30 * MM), sites, centre, (-0.27, 0.0, 0.0))
+    return turn(up * _across(sites, 11 * MM, 32 * MM), sites, centre, (-0.27, 0.0, 0.0))
 
 
 def _nostril_width(sites: Sites) -> FloatArray:

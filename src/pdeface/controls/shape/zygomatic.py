@@ -18,7 +18,7 @@ def _cheekbone_width(sites: Sites) -> FloatArray:
     # As far back as the ear: the arch of the bone ends there.
     bone = landmark("nose_ridge")[1] + 3 * MM
     up = hill(sites.y, bone - 54 * MM, bone - 4 * MM, bone + 4 * MM, bone + 52 * MM)
-    return move(up * rise(sites.x, 28 * MM, 66 * MM), (6.5 * MM, 0.0, 0.0))
+    return move(up * rise(sites.x, 38 * MM, 68 * MM), (6.5 * MM, 0.0, 0.0))
 
 
 def _cheek_fullness(sites: Sites) -> FloatArray:
