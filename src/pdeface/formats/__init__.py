@@ -8,19 +8,23 @@ from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.files import PathLike
 from pdeface.formats._sample import sample
+from pdeface.formats._targets import Expressions, MorphTargets, expression_names
 from pdeface.formats.gltf import write_glb, write_gltf
 from pdeface.formats.obj import write_obj
 from pdeface.formats.ply import write_ply
 from pdeface.formats.stl import write_stl
 from pdeface.pde import Join
 
-__all__ = ["SUFFIXES", "export"]
+__all__ = ["SUFFIXES", "SUFFIXES_THAT_MOVE", "export", "expression_names"]
 
 _MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl")
 _WITH_QUADS = (".obj", ".ply")
 
 SUFFIXES = (*_MESHES, ".pdeface")
 """Suffixes that :func:`export` knows."""
+
+SUFFIXES_THAT_MOVE = (".glb", ".gltf")
+"""Those whose files hold expressions as morph targets."""
 
 
 def export(
@@ -29,6 +33,7 @@ def export(
     mesh: tuple[int, int] = (28, 41),
     join: Join = "smooth",
     quads: bool | None = None,
+    expressions: Expressions = None,
 ) -> None:
     """Write ``face`` to ``path`` in the format that its suffix names.
 
@@ -37,6 +42,10 @@ def export(
     ``me.obj``, and ``.obj`` a ``.mtl``; ``.stl`` has none. ``.pdeface`` is :meth:`Face.save`,
     which no mesh concerns.
 
+    In ``.glb`` and ``.gltf`` expressions are morph targets by ARKit's names (docs/export.md), and
+    what the face does at the moment are their default weights. All else that the controls of the
+    face say is part of the mesh, as in the other formats everything is.
+
     Args:
         face: the face.
         path: the file to write. It appears last and whole, or stays as it was if anything fails.
@@ -44,10 +53,13 @@ def export(
         join: ``"smooth"`` (C2) or ``"patchwise"`` (the paper's).
         quads: quads or triangles. By default OBJ has quads and PLY, whose quads many readers
             refuse, triangles; the other formats have triangles only.
+        expressions: which become morph targets: ``"all"``, or some by name. By default all that
+            the face can make, which are none if its curves do not lie on lids and lips.
 
     Raises:
-        InputError: an unknown suffix, a mesh or join that the face cannot have, quads in a
-            format without them, or a place that cannot be written.
+        InputError: an unknown suffix or expression, a mesh, join or expression that the face
+            cannot have, quads or expressions in a format without them, or a place that cannot be
+            written.
         MissingExtraError: the face has a texture and Pillow is not installed.
 
     Example:
@@ -59,6 +71,11 @@ def export(
             f"expected a file name that ends in {', '.join(SUFFIXES)}, got {Path(path).name!r}; "
             "the suffix picks the format"
         )
+    if expressions and suffix not in SUFFIXES_THAT_MOVE:
+        raise InputError(
+            f"expressions can be written to {' and '.join(SUFFIXES_THAT_MOVE)}, not to {suffix}; "
+            "leave them out"
+        )
     if suffix == ".pdeface":
         face.save(path)
         return
@@ -67,14 +84,24 @@ def export(
             f"quads can be written to {' and '.join(_WITH_QUADS)}, not to {suffix}; "
             "leave quads out for triangles"
         )
+    if suffix in SUFFIXES_THAT_MOVE:
+        targets = _targets(face, mesh, join, expressions)
+        (write_glb if suffix == ".glb" else write_gltf)(face, targets, path)
+        return
     surface = sample(face, mesh, join)
-    if suffix == ".glb":
-        write_glb(face, surface, path)
-    elif suffix == ".gltf":
-        write_gltf(face, surface, path)
-    elif suffix == ".obj":
+    if suffix == ".obj":
         write_obj(face, surface, path, quads=quads is not False)
     elif suffix == ".ply":
         write_ply(face, surface, path, quads=bool(quads))
     else:
         write_stl(surface, path)
+
+
+def _targets(
+    face: Face, mesh: tuple[int, int], join: Join, expressions: Expressions
+) -> MorphTargets:
+    """The face at rest in the expressions that a file can move, and these expressions."""
+    names = expression_names(face, expressions)
+    weights = tuple(face.weights.get(name, 0.0) for name in names)
+    resting = face.with_weights(dict.fromkeys(names, 0.0))
+    return MorphTargets(resting, sample(resting, mesh, join), join, names, weights)

@@ -98,13 +98,15 @@ class GltfBuilder:
         if len(kept) == 0:  # an accessor without data is all zeros
             return self.add("accessors", **described)
         indices = kept.astype(index_type)
+        # An offset of 0 goes without saying, but VTK wants it said.
         sparse = {
             "count": len(kept),
             "indices": {
                 "bufferView": self.add_view(_bytes(indices)),
+                "byteOffset": 0,
                 "componentType": _COMPONENTS[indices.dtype.name],
             },
-            "values": {"bufferView": self.add_view(_bytes(stored))},
+            "values": {"bufferView": self.add_view(_bytes(stored)), "byteOffset": 0},
         }
         return self.add("accessors", **described, sparse=sparse)
 

@@ -31,6 +31,7 @@ class Sample:
         texcoords: (V, 2), top-left origin.
         quads: (C, 4) indices, anticlockwise seen from outside.
         triangles: (T, 3) indices, anticlockwise seen from outside.
+        grid: the (rows, columns) of the uv mesh.
     """
 
     vertices: Float32
@@ -38,6 +39,7 @@ class Sample:
     texcoords: Float32
     quads: IndexArray
     triangles: IndexArray
+    grid: tuple[int, int]
 
     @property
     def texcoords_from_below(self) -> Float32:
@@ -74,6 +76,7 @@ def sample(face: Face, mesh: tuple[int, int], join: Join) -> Sample:
         texcoords=dense.texcoords.astype(np.float32),
         quads=dense.quads,
         triangles=dense.triangles,
+        grid=dense.grid,
     )
 
 

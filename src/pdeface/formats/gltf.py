@@ -2,52 +2,69 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
 from pdeface.formats._gltf_builder import GltfBuilder
 from pdeface.formats._sample import Sample
 from pdeface.formats._shared import GENERATOR, ROUGHNESS, SKIN, linear
+from pdeface.formats._targets import MorphTargets
 from pdeface.images import has_holes, media_type
 
 __all__ = ["build_gltf", "write_glb", "write_gltf"]
 
 _LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP_TO_EDGE = 9729, 9987, 33071
 
+STILL = 1e-6
+"""Metres that a vertex may be moved by an expression and be stored as not moved by it."""
 
-def write_glb(face: Face, surface: Sample, path: PathLike) -> None:
+UNTURNED = 5e-4
+"""The like for unit normals. It changes shading by an eighth of a grey level of 256 at most."""
+
+
+def write_glb(face: Face, targets: MorphTargets, path: PathLike) -> None:
     """Write a GLB with its texture embedded.
 
     Raises:
         InputError: more than 4 GiB, or a place that cannot be written.
     """
-    atomic_write(path, build_gltf(face, surface).to_glb())
+    atomic_write(path, build_gltf(face, targets).to_glb())
 
 
-def write_gltf(face: Face, surface: Sample, path: PathLike) -> None:
+def write_gltf(face: Face, targets: MorphTargets, path: PathLike) -> None:
     """Write a .gltf with buffer and texture embedded.
 
     Raises:
         InputError: a place that cannot be written.
     """
-    atomic_write(path, build_gltf(face, surface).to_gltf())
+    atomic_write(path, build_gltf(face, targets).to_gltf())
 
 
-def build_gltf(face: Face, surface: Sample) -> GltfBuilder:
-    """The document: one scene, one node, one mesh of one primitive, one material."""
+def build_gltf(face: Face, targets: MorphTargets) -> GltfBuilder:
+    """The document: one scene, one node, one mesh of one primitive, one material.
+
+    Args:
+        face: whose texture, name and notes go into the file.
+        targets: the mesh, and the expressions that move it.
+    """
     document = GltfBuilder(GENERATOR)
     if "copyright" in face.notes:
         document.asset["copyright"] = face.notes["copyright"]
     name = face.name or "face"
-    primitive = _add_primitive(document, surface, _add_material(document, face))
-    mesh = document.add("meshes", name=name, primitives=[primitive])
+    primitive = _add_primitive(document, targets.surface, _add_material(document, face))
+    morphs: dict[str, Any] = {}
+    if targets.names:
+        primitive["targets"] = _add_targets(document, targets)
+        # The specification has no place for names; this one every program knows.
+        morphs = {"weights": targets.weights, "extras": {"targetNames": targets.names}}
+    mesh = document.add("meshes", name=name, primitives=[primitive], **morphs)
     node = document.add("nodes", name=name, mesh=mesh)
     document.add("scenes", nodes=[node])
     return document
 
 
-def _add_primitive(
-    document: GltfBuilder, surface: Sample, material: int
-) -> dict[str, int | dict[str, int]]:
+def _add_primitive(document: GltfBuilder, surface: Sample, material: int) -> dict[str, Any]:
     return {
         "attributes": {
             "POSITION": document.add_accessor(surface.vertices, "vertices", bounds=True),
@@ -57,6 +74,16 @@ def _add_primitive(
         "indices": document.add_indices(surface.triangles, len(surface.vertices)),
         "material": material,
     }
+
+
+def _add_targets(document: GltfBuilder, targets: MorphTargets) -> list[dict[str, int]]:
+    return [
+        {
+            "POSITION": document.add_differences(moved, STILL, bounds=True),
+            "NORMAL": document.add_differences(turned, UNTURNED),
+        }
+        for moved, turned in targets.differences()
+    ]
 
 
 def _add_material(document: GltfBuilder, face: Face) -> int:

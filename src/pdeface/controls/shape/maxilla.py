@@ -59,8 +59,8 @@ def _lower_lip(sites: Sites) -> FloatArray:
 
 def _philtrum(sites: Sites) -> FloatArray:
     base, lip = landmark("subnasale")[1], landmark("lower_lip_border")[1]
-    up = hill(sites.y, lip - 24 * MM, lip, base - 15 * MM, base + 2 * MM)
-    return move(up * fall(sites.aside, 28 * MM, 60 * MM), (0.0, -5.5 * MM, 0.0))
+    up = hill(sites.y, lip - 24 * MM, lip, base - 16 * MM, base + 3 * MM)
+    return move(up * fall(sites.aside, 28 * MM, 60 * MM), (0.0, -5 * MM, 0.0))
 
 
 MAXILLA = (

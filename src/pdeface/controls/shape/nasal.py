@@ -35,9 +35,9 @@ def _across(sites: Sites, inner: float, outer: float) -> FloatArray:
 
 def _length(sites: Sites) -> FloatArray:
     base, root = _base(), _root()
-    up = hill(sites.y, base - 13 * MM, base + 3 * MM, root - 1 * MM, root + 20 * MM)
-    along = 1.2 * fall(sites.y, base, root - 1 * MM) - 0.2
-    return move(_across(sites, 15 * MM, 36 * MM) * up * along, (0.0, -6 * MM, 1.5 * MM))
+    up = hill(sites.y, base - 13.5 * MM, base + 4 * MM, root - 1 * MM, root + 20 * MM)
+    along = 1.25 * fall(sites.y, base, root - 1 * MM) - 0.25
+    return move(_across(sites, 15 * MM, 36 * MM) * up * along, (0.0, -5.5 * MM, 1.4 * MM))
 
 
 def _width(sites: Sites) -> FloatArray:

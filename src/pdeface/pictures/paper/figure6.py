@@ -1,4 +1,5 @@
-"""Fig. 6: the photo and the warped texture, bare, with the uv mesh and with the warp meshes."""
+"""Fig. 6: the photo and the warped photo, bare, with the uv mesh and with the warp meshes; and the
+texture that is cut out of it."""
 
 from __future__ import annotations
 
@@ -27,6 +28,7 @@ RIM: Final = 0.015
 CAPTIONS: Final = [
     ["(a) Original texture map", "(b) with the uv mesh", "(c) with the source mesh"],
     ["(d) Warped texture map", "(e) with the uv mesh", "(f) with the target mesh"],
+    ["Cut to the uv mesh", "with the uv mesh", "with the target mesh"],
 ]
 
 
@@ -42,13 +44,14 @@ def figure6(steps: UVTexture) -> Figure:
     whole = [-RIM * width, -RIM * height, (1 + RIM) * width, (1 + RIM) * height]
     rows = [
         _row(steps.photo, window, steps.grid.nodes(), steps.source_mesh),
+        _row(steps.target_image(), window, steps.grid.nodes(), steps.grid_mesh),
         _row(steps.image, whole, steps.uv_nodes(), steps.target_mesh),
     ]
     return Figure(
         6,
         "Mesh-assisted warping of the texture map: (a) the original I_s; (b) I_s with the uv "
         "mesh; (c) I_s with M_s; (d) the warped texture map I_t; (e) I_t with the uv mesh; "
-        "(f) I_t with M_t.",
+        "(f) I_t with M_t. Below: what of I_t the uv mesh takes, drawn over (v, u).",
         contact_sheet(rows, CAPTIONS),
         agrees=[
             "(b) The 28 by 41 grid is scaled so that both eye centres fall where the face has "
@@ -57,13 +60,17 @@ def figure6(steps: UVTexture) -> Figure:
             "which is why a warp is needed.",
             "(f) After the two-pass mesh warp the 25 feature points lie where the uv mesh has "
             "them.",
-            "(d) The warped image is the texture: its coordinates are (v, u) and no map from "
-            "space to image is needed.",
+            "(d) The warped image textures the uv mesh: cut along the grid of (e) its coordinates "
+            "are (v, u), and no map from space to image is needed.",
         ],
         differs=[
-            f"(d) is {width} by {height} texels, cut to the uv mesh, instead of 256 by 256.",
+            "(b) The grid is the neutral face's own uv mesh seen from the front, where the paper's "
+            "is straight: rows crowd at lids and lips, and a straight grid would put a photo's "
+            "eyes beside them. `uv_texture(..., follow_face=False)` takes the straight one.",
+            f"Below: the texture is cut out along the grid, {width} by {height} texels. Lids and "
+            "lips are tall in it, because the uv mesh has many rows there.",
             "(c) The outer nodes lie around the face instead of on the photo's border.",
-            "(d) The edge fades into the skin's colour: a frontal photo has hair and background "
+            "Below: the edge fades into the skin's colour: a frontal photo has hair and background "
             "where the sides of the face need skin.",
             "If the head is tilted, the line between the eyes is levelled first; the paper's "
             "subject looks straight ahead.",

@@ -1,0 +1,170 @@
+"""Morph targets: what each expression at full weight adds to positions and normals of a mesh.
+
+The surface is linear in every expression, so that these displacements reproduce it exactly at any
+weights. Normals are not linear: they are exact with one expression at weight 0 or 1.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.controls import ARKIT, CONTROLS, displacement, slits
+from pdeface.errors import InputError
+from pdeface.face import Face
+from pdeface.formats._sample import Sample
+from pdeface.pde import GridEvaluator, Join
+from pdeface.uvmesh import UVMesh
+
+__all__ = ["Expressions", "MorphTargets", "expression_names"]
+
+Float32 = NDArray[np.float32]
+Float64 = NDArray[np.float64]
+
+Expressions = Literal["all"] | Sequence[str] | None
+"""Which expressions become morph targets: ``"all"``, some by name, or None for the default."""
+
+# Differences of all targets together: 51 of them on a mesh of 877,000 vertices.
+_LARGEST = 1 << 30
+# Numbers evaluated in one batch.
+_BATCH = 1 << 23
+
+
+def expression_names(face: Face, expressions: Expressions) -> tuple[str, ...]:
+    """The expressions that become morph targets of ``face``, in their order in a file.
+
+    Args:
+        face: the face.
+        expressions: ``"all"``; some by name; or None for all that the face can make, which
+            are none if its curves do not lie on lids and lips.
+
+    Raises:
+        InputError: a name of no expression, or expressions that the face cannot make.
+    """
+    every = tuple(name for name, control in CONTROLS.items() if control.kind == "expression")
+    if expressions is None:
+        return every if _has_lids(face) else ()
+    if isinstance(expressions, str) and expressions == "all":
+        names = every
+    elif isinstance(expressions, str) or not isinstance(expressions, Sequence):
+        raise InputError(
+            "expressions are 'all' or a sequence of names, such as ('jawOpen',), "
+            f"got {expressions!r}"
+        )
+    else:
+        names = tuple(dict.fromkeys(expressions))
+    for name in names:
+        if name not in every:
+            raise _unknown(name, every)
+    if names:
+        slits(face.curves.shape[0])
+    return names
+
+
+@dataclass(frozen=True, eq=False)
+class MorphTargets:
+    """Expressions as displacements of the vertices and normals of a sampled face.
+
+    Attributes:
+        face: without these expressions.
+        surface: the face sampled.
+        join: how its patches meet.
+        names: the expressions.
+        weights: of the expressions, in the order of their names.
+
+    Raises:
+        InputError: more than a gigabyte of displacements.
+    """
+
+    face: Face
+    surface: Sample
+    join: Join
+    names: tuple[str, ...]
+    weights: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        size = 24 * len(self.names) * len(self.surface.vertices)
+        if size > _LARGEST:
+            raise InputError(
+                f"{len(self.names)} expressions on a mesh of {' x '.join(map(str, self.surface.grid))} "
+                f"would take up to {size / 2**30:.1f} GiB, more than {_LARGEST >> 30}; "
+                "choose a coarser mesh, or fewer expressions"
+            )
+
+    def differences(self) -> Iterator[tuple[Float32, Float32]]:
+        """(V, 3) positions, metres, and (V, 3) normals that each expression adds."""
+        shape, count = self.face.curves.shape, len(self.surface.vertices)
+        moved = [displacement({name: 1.0}, shape) for name in self.names]
+        own = displacement(self.face.weights, shape)
+        parts = self.join == "smooth"
+        base = _layers(self.face.curves.points + own.smooth, own.parting, parts)
+        points = np.array([_layers(one.smooth, one.parting, parts) for one in moved])
+        mirrored = self.face.curves.is_mirrored
+        evaluator = _evaluator(
+            shape, self.surface.grid, self.face.a, self.face.modes, self.join, parts, mirrored
+        )
+        step = max(1, _BATCH // (6 * count))
+        for start in range(0, len(points), step):
+            some = points[start : start + step]
+            positions = evaluator.positions(some).reshape(-1, count, 3)
+            normals = evaluator.normals(some + base).reshape(-1, count, 3)
+            for position, normal in zip(positions, normals, strict=True):
+                yield position, self._turned(normal)
+
+    def _turned(self, normals: Float32) -> Float32:
+        """Normals less those of the face; 0 where the surface is pinched and has none."""
+        turned = normals - self.surface.normals
+        turned[np.einsum("ij,ij->i", normals, normals) < 0.5] = 0.0
+        return turned
+
+
+def _layers(smooth: Float64, parting: Float64, parts: bool) -> Float64:
+    """(2 K, M, 3) for a surface that parts; (K, M, 3) for the paper's, which is creased anyway."""
+    return np.concatenate([smooth, parting]) if parts else smooth + parting
+
+
+def _has_lids(face: Face) -> bool:
+    try:
+        slits(face.curves.shape[0])
+    except InputError:
+        return False
+    return True
+
+
+def _unknown(name: object, every: Sequence[str]) -> InputError:
+    if name in ARKIT:
+        return InputError(f"faces cannot do {name!r} yet; leave it out")
+    near = difflib.get_close_matches(str(name), every, n=3, cutoff=0.5)
+    hint = f"did you mean {', '.join(near)}?" if near else "see pdeface.controls.ARKIT"
+    return InputError(f"no expression is called {name!r}; {hint}")
+
+
+@lru_cache(maxsize=4)
+def _evaluator(
+    shape: tuple[int, int],
+    mesh: tuple[int, int],
+    a: float,
+    modes: int,
+    join: Join,
+    parts: bool,
+    mirrored: bool,
+) -> GridEvaluator:
+    grid = UVMesh(*mesh)
+    parting = slits(shape[0]) if parts else None
+    return GridEvaluator(
+        shape,
+        grid.u,
+        grid.v,
+        a=a,
+        modes=modes,
+        join=join,
+        parting=parting,
+        mirrored=mirrored,
+        dtype=np.float32,
+    )
