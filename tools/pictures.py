@@ -34,32 +34,18 @@ def save(pixels: np.ndarray, name: str, width: int) -> None:
 
 
 def levels() -> np.ndarray:
-    rows, captions = [], []
-    for level in ("28x46", "55x92", "109x184"):
-        face = pdeface.neutral(level)
-        rows.append(
-            [
-                render(face, view=view, style="shaded", light="raking", mesh=(541, 321), size=(480, 600))
-                for view in ("front", "three-quarter", "profile")
-            ]
-        )  # fmt: skip
-        captions.append([f"{level}, {view}" for view in ("front", "three-quarter", "profile")])
-    return contact_sheet(rows, captions)
+    views = ("front", "three-quarter", "profile")
+    how = {"style": "shaded", "light": "raking", "mesh": (541, 321), "size": (480, 600)}
+    faces = {level: pdeface.neutral(level) for level in ("28x46", "55x92", "109x184")}
+    rows = [[render(face, view=view, **how) for view in views] for face in faces.values()]
+    return contact_sheet(rows, [[f"{level}, {view}" for view in views] for level in faces])
 
 
 def expressions(face: pdeface.Face) -> np.ndarray:
     people = [face, pdeface.random(4), pdeface.random(5)]
-    rows, captions = [], []
-    for person in people:
-        style = "textured" if person.texture is not None else "shaded"
-        rows.append(
-            [
-                render(person.set(**weights), view=20, style=style, mesh=(217, 161), size=(360, 450))
-                for weights in EXPRESSIONS.values()
-            ]
-        )  # fmt: skip
-        captions.append(list(EXPRESSIONS))
-    return contact_sheet(rows, captions)
+    how = {"view": 20, "mesh": (217, 161), "size": (360, 450)}
+    rows = [[render(person.set(**w), **how) for w in EXPRESSIONS.values()] for person in people]
+    return contact_sheet(rows, [list(EXPRESSIONS)] * len(people))
 
 
 def main() -> None:

@@ -37,6 +37,7 @@ class GltfBuilder:
         self._lists: dict[str, list[Json]] = {}
         self._chunks: list[bytes] = []
         self._length = 0
+        self._zeros: dict[int, int] = {}
 
     def add(self, kind: str, **properties: Any) -> int:
         """Add an object to a top-level list, such as ``add("nodes", name="face", mesh=0)``.
@@ -47,13 +48,22 @@ class GltfBuilder:
         objects.append({key: value for key, value in properties.items() if value is not None})
         return len(objects) - 1
 
-    def add_view(self, data: bytes, target: Target | None = None) -> int:
-        """Add bytes to the buffer, at a multiple of 4 as every accessor wants."""
+    def add_view(
+        self, data: bytes, target: Target | None = None, *, stride: int | None = None
+    ) -> int:
+        """Add bytes to the buffer, at a multiple of 4 as every accessor wants.
+
+        Args:
+            data: what to add.
+            target: what a graphics card does with it.
+            stride: bytes from one vertex to the next, for a view that several accessors share.
+        """
         view = self.add(
             "bufferViews",
             buffer=0,
             byteOffset=self._length,
             byteLength=len(data),
+            byteStride=stride,
             target=_TARGETS[target] if target else None,
         )
         padding = bytes(-len(data) % 4)
@@ -89,26 +99,34 @@ class GltfBuilder:
         """
         kept = np.flatnonzero(np.einsum("ij,ij->i", values, values) > nothing * nothing)
         index_type = next(t for t in _INDEX_TYPES if len(values) - 1 <= np.iinfo(t).max)
-        stored = values[kept]
         if len(kept) * (values.itemsize * 3 + index_type().itemsize) >= values.nbytes:
             return self.add_accessor(values, "vertices", bounds=bounds)
-        # The accessor's bounds count the zeros in: there is at least one.
-        extremes = np.concatenate([stored, np.zeros((1, 3), values.dtype)])
-        described = {**_described(extremes, bounds), "count": len(values)}
-        if len(kept) == 0:  # an accessor without data is all zeros
-            return self.add("accessors", **described)
-        indices = kept.astype(index_type)
+        stored = values[kept]
+        # The bounds are those of all values, of which one at least became 0.
+        with_zero = np.concatenate([stored, np.zeros((1, 3), values.dtype)])
+        described = {**_described(with_zero, bounds), "count": len(values)}
+        sparse = self._sparse(kept.astype(index_type), stored) if len(kept) else None
+        zeros = self._view_of_zeros(len(values))
+        return self.add("accessors", bufferView=zeros, **described, sparse=sparse)
+
+    def _sparse(self, indices: NDArray[Any], values: NDArray[Any]) -> Json:
         # An offset of 0 goes without saying, but VTK wants it said.
-        sparse = {
-            "count": len(kept),
+        return {
+            "count": len(indices),
             "indices": {
                 "bufferView": self.add_view(_bytes(indices)),
                 "byteOffset": 0,
                 "componentType": _COMPONENTS[indices.dtype.name],
             },
-            "values": {"bufferView": self.add_view(_bytes(stored)), "byteOffset": 0},
+            "values": {"bufferView": self.add_view(_bytes(values)), "byteOffset": 0},
         }
-        return self.add("accessors", **described, sparse=sparse)
+
+    def _view_of_zeros(self, count: int) -> int:
+        """``count`` vectors of 0. A reader would have to think of them itself if they were left
+        out, as they may be, and some do not."""
+        if count not in self._zeros:
+            self._zeros[count] = self.add_view(bytes(12 * count), "vertices", stride=12)
+        return self._zeros[count]
 
     def add_indices(self, triangles: NDArray[Any], vertex_count: int) -> int:
         """Add (T, 3) indices in the smallest type that graphics cards like."""
