@@ -11,6 +11,8 @@ a smooth surface that passes through every curve and has exact normals at any re
     surface(0.5, 1.57)                 # a point on the midline, beside the nose
     pdeface.export(face, "face.glb", mesh=(109, 161))
 
+    pdeface.random(7).set(jawOpen=0.5, eyeBlinkLeft=1.0)   # a person, doing something
+
 Metres and radians; +Y is up, +Z forward, +X the subject's left.
 """
 

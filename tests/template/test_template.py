@@ -98,6 +98,23 @@ def test_every_row_has_a_name_and_a_place() -> None:
         template.row("mid_eye", curves=30)
 
 
+def test_every_column_has_a_name_and_a_place() -> None:
+    v = [template.column_v(name) for name in template.COLUMNS]
+    assert v == sorted(v)
+    assert v[0] == 0.0
+    np.testing.assert_allclose(np.add(v, v[::-1]), np.pi)
+    surface = pdeface.neutral("109x184").surface()
+    outer, inner = (
+        surface(template.row_u("mid_eye"), template.column_v(f"left_eye_{side}"))[0]
+        for side in ("outer", "inner")
+    )
+    assert (outer, inner) == pytest.approx((0.0446, 0.0184), abs=0.0015)
+    assert template.column("midline") == 11
+    assert template.column("left_edge") == 22
+    with pytest.raises(InputError, match="no column is called 'ear'"):
+        template.column("ear")
+
+
 def test_regions_lie_on_the_face() -> None:
     for region in template.REGIONS.values():
         assert 0 <= region.first_row < region.last_row <= 27

@@ -17,15 +17,18 @@ from numpy.typing import NDArray
 
 from pdeface.curves import BoundaryCurves, mirror_points
 from pdeface.errors import InputError
-from pdeface.template.layout import LEVELS, PAPER_ROWS, REGIONS, ROWS, Region
+from pdeface.template.layout import COLUMNS, LEVELS, PAPER_ROWS, REGIONS, ROWS, Region
 
 __all__ = [
+    "COLUMNS",
     "DATA",
     "FEATURE_POINTS",
     "LEVELS",
     "REGIONS",
     "ROWS",
     "Region",
+    "column",
+    "column_v",
     "feature_points",
     "neutral_curves",
     "row",
@@ -115,3 +118,24 @@ def row(name: str, curves: int = PAPER_ROWS) -> int:
     if abs(index - round(index)) > 1e-9:
         raise InputError(f"with {curves} curves none lies on {name!r}; levels have 27 n + 1 curves")
     return round(index)
+
+
+def column_v(name: str) -> float:
+    """v of a named column, such as ``"left_mouth_corner"``, radians, at every level of detail.
+
+    Raises:
+        InputError: no column has that name.
+    """
+    if name not in COLUMNS:
+        raise InputError(f"no column is called {name!r}; the columns are {', '.join(COLUMNS)}")
+    return float(_data()["columns"][COLUMNS.index(name)])
+
+
+def column(name: str, points: int = 46) -> int:
+    """Index of the data point nearest to a named column, on curves of so many points.
+
+    Raises:
+        InputError: no column has that name.
+    """
+    nearest = round(column_v(name) * points / (2.0 * np.pi) - 0.5)
+    return min(max(nearest, 0), points // 2 - 1)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import NamedTuple
 
-__all__ = ["LEVELS", "PAPER_ROWS", "REGIONS", "ROWS", "Region"]
+__all__ = ["COLUMNS", "LEVELS", "PAPER_ROWS", "REGIONS", "ROWS", "Region"]
 
 LEVELS = MappingProxyType({"28x46": (28, 46), "55x92": (55, 92), "109x184": (109, 184)})
 """Levels of detail that the package ships: (curves, points on each)."""
@@ -51,6 +51,24 @@ ROWS = MappingProxyType(
     }
 )
 """Row of each named feature, in curves of the paper: ``u = row / 27``."""
+
+
+COLUMNS = (
+    "right_edge",
+    "right_eye_outer",
+    "right_eye_middle",
+    "right_mouth_corner",
+    "right_eye_inner",
+    "right_nostril_wing",
+    "midline",
+    "left_nostril_wing",
+    "left_eye_inner",
+    "left_mouth_corner",
+    "left_eye_middle",
+    "left_eye_outer",
+    "left_edge",
+)
+"""Named columns, from the subject's right to the left: values of v, measured with the template."""
 
 
 class Region(NamedTuple):

@@ -16,7 +16,7 @@ from pdeface.template import DATA
 from pdeface.template.build.chart import Chart
 from pdeface.template.build.closing import close_head
 from pdeface.template.build.cutting import MIRROR_Z, cut_face
-from pdeface.template.build.features import measure_features
+from pdeface.template.build.features import measure_columns, measure_features
 from pdeface.template.build.head import load_head
 from pdeface.template.build.measure import measure
 from pdeface.template.build.parameterisation import Parameterisation
@@ -52,7 +52,11 @@ def build(folder: Path, output: Path) -> None:
     rows, around = SAMPLES
     v = curve_parameters(around)[: around // 2]
     samples = mirror_points(face.points(np.linspace(0.0, 1.0, rows), v), MIRROR_Z)
-    arrays = {"mirror_z": np.float64(MIRROR_Z), "features": measure_features(face)}
+    arrays = {
+        "mirror_z": np.float64(MIRROR_Z),
+        "features": measure_features(face),
+        "columns": measure_columns(face, head),
+    }
     for name, shape in LEVELS.items():
         # What is measured is what ships: single precision, and the reflection made exact.
         points = fit_curves(samples, shape, fairness=FAIRNESS[name], damping=DAMPING[name])

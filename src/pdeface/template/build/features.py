@@ -6,9 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.template import FEATURE_POINTS
+from pdeface.template.build.head import Head
 from pdeface.template.build.parameterisation import Parameterisation
+from pdeface.template.layout import COLUMNS
 
-__all__ = ["measure_features"]
+__all__ = ["measure_columns", "measure_features"]
 
 FloatArray = NDArray[np.float64]
 
@@ -33,6 +35,25 @@ PAIRED = {
     ("chin_1", "chin_5"): (0.0390, -0.0645),
     ("chin_2", "chin_4"): (0.0253, -0.0708),
 }
+
+
+# Multi-PIE landmarks, counted from 0, of the named columns on the subject's right.
+ON_COLUMN = {
+    "right_eye_outer": 36,
+    "right_eye_inner": 39,
+    "right_nostril_wing": 31,
+    "right_mouth_corner": 48,
+}
+
+
+def measure_columns(face: Parameterisation, head: Head) -> FloatArray:
+    """(13,) values of v of the named columns, exactly symmetric."""
+    landmarks = np.array([head.landmark(mark) for mark in ON_COLUMN.values()])
+    v = dict(zip(ON_COLUMN, face.uv_of(landmarks)[:, 1].tolist(), strict=True))
+    v |= {"right_edge": 0.0, "midline": np.pi / 2}
+    v["right_eye_middle"] = 0.5 * (v["right_eye_outer"] + v["right_eye_inner"])
+    v |= {name.replace("right", "left"): np.pi - v[name] for name in list(v) if "right" in name}
+    return np.array([v[name] for name in COLUMNS])
 
 
 def measure_features(face: Parameterisation) -> FloatArray:
