@@ -32,6 +32,28 @@ WRONG_USE = [
         ["export", "BUST", "-o", "a.glb", "--mesh", mesh]
         for mesh in ("0x5", "1x1", "3x", "x3", "", "-3x4", "3 x 4", "axb", "28", "2x2x2", HUGE)
     ),
+    *(
+        ["export", "BUST", "-o", "a.glb", "--set", value]
+        for value in (
+            *("jawOpen", "jawOpen=", "=1", "", "jawOpen=wide", "jawOpen=nan", "jawOpen=inf"),
+            *("jawOpen=1.01", "jawOpn=1", "jawOpen=1,,", "jawOpen=1;eyeBlinkLeft=1"),
+            *("jawOpen=1", "identity01=-4"),  # a bust of 7 curves has no lips to part
+        )
+    ),
+    ["export", "BUST", "-o", "a.pdeface", "--set", "jawOpen=1"],
+    ["export", "BUST", "-o", "a.glb", "--clamp", "--set", "jawOpn=1"],
+    ["export", "BUST", "-o", "a.glb", "--expressions", "all"],
+    ["export", "BUST", "-o", "a.glb", "--expressions", "jawOpn"],
+    ["make", "-o", "a.glb", "--expressions", "tongueOut"],
+    ["make", "-o", "a.glb", "--expressions", "jawOpen,"],
+    ["make", "-o", "a.obj", "--expressions", "all"],
+    ["make", "-o", "a.glb", "--set", "noseLenght=1"],
+    ["make", "-o", "a.glb", "--random", "-1"],
+    ["make", "-o", "a.glb", "--random", "someone"],
+    ["controls", "missing.pdeface"],
+    ["controls", "TEXT"],
+    ["controls", "--kind", "mood"],
+    ["render", "BUST", "-o", "a.png", "--set", "jawOpn=1"],
     ["render", "BUST"],
     ["render", "BUST", "-o", "a.glb"],
     ["render", "BUST", "-o", "a.png", "--view", "upside-down"],
@@ -83,6 +105,13 @@ def test_bad_input_is_one_line_and_status_2(here, pdeface_command, words) -> Non
     assert outcome.err.count("\n") == 1
     assert outcome.out == ""
     assert sorted(here.iterdir()) == before
+
+
+def test_the_nearest_names_are_offered(here, pdeface_command) -> None:
+    for option in ("--set", "--expressions"):
+        word = "jawOpn=1" if option == "--set" else "jawOpn"
+        outcome = pdeface_command("make", "-o", "a.glb", option, word)
+        assert "did you mean jawOpen" in outcome.err
 
 
 @pytest.mark.parametrize("text", ["", "PK\x03\x04", "{}", "\x00" * 100])

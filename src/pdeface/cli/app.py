@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import pdeface
-from pdeface.cli import export, info, make, paper, render
+from pdeface.cli import controls, export, info, make, paper, render
 from pdeface.errors import InputError, PDEFaceError
 
 __all__ = ["app", "run"]
@@ -30,6 +30,7 @@ app.command("make")(make.make)
 app.command("export")(export.export)
 app.command("render")(render.render)
 app.command("info")(info.info)
+app.command("controls")(controls.controls)
 app.command("paper")(paper.paper)
 
 
@@ -59,6 +60,7 @@ def _pdeface(
       pdeface export face.pdeface -o face.obj     another format, any mesh size
       pdeface render face.pdeface -o face.png     a picture of it
       pdeface info face.pdeface                   what it is made of
+      pdeface controls --kind expression          what it can be set to
 
     'pdeface COMMAND --help' tells more, with examples.
     """

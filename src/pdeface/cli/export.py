@@ -7,11 +7,15 @@ from typing import Annotated
 
 import typer
 
+from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
 from pdeface.cli.options import (
+    ClampOption,
+    ExpressionsOption,
     FacePath,
     JoinOption,
     MeshOption,
     QuietOption,
+    SetOption,
     check_outputs,
     parse_mesh,
 )
@@ -34,12 +38,17 @@ def export(
         typer.Option("--quads/--triangles", help="Quads (.obj, .ply) or triangles; by default "
                      "quads in .obj, triangles elsewhere."),
     ] = None,
+    set_: SetOption = None,
+    clamp: ClampOption = False,
+    expressions: ExpressionsOption = None,
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
     """Write a face as a mesh that other programs read.
 
     The face is sampled afresh at any size: the surface has no resolution of its own. Units are
-    metres, +Y up, +Z forward.
+    metres, +Y up, +Z forward. In .glb and .gltf, expressions are morph targets by ARKit's names,
+    and those that --set turns on are at that weight to begin with; in the other formats they are
+    part of the mesh.
 
     \b
     Examples:
@@ -47,15 +56,19 @@ def export(
       pdeface export face.pdeface -o face.obj --mesh 28x41
       pdeface export face.pdeface -o fine.stl --mesh 541x321
       pdeface export face.pdeface -o paper.ply --join patchwise
+      pdeface export face.pdeface -o smile.obj --set mouthSmileLeft=0.8,mouthSmileRight=0.8
+      pdeface export face.pdeface -o blink.glb --expressions eyeBlinkLeft,eyeBlinkRight
+      pdeface export face.pdeface -o still.glb --expressions none
     """
-    size = parse_mesh(mesh)
+    size, weights = parse_mesh(mesh), parse_weights(set_)
     report = Report(quiet)
     import pdeface
     from pdeface.formats import SUFFIXES
 
+    value = with_weights(pdeface.load(face), weights, clamp)
+    moving = chosen_expressions(value, expressions, out)
     check_outputs(out, [face], SUFFIXES)
-    value = pdeface.load(face)
     for path in out:
         with report.step(f"writing {path}"):
-            pdeface.export(value, path, mesh=size, join=join, quads=quads)
+            pdeface.export(value, path, mesh=size, join=join, quads=quads, expressions=moving[path])
         report.wrote(path)

@@ -21,7 +21,7 @@ def info(
     face: FacePath,
     as_json: Annotated[bool, typer.Option("--json", help="As JSON, for programs.")] = False,
 ) -> None:
-    """Show what a face is made of: curves, bytes, texture, size.
+    """Show what a face is made of: curves, controls that are not 0, texture, size.
 
     \b
     Examples:
@@ -60,6 +60,7 @@ def _facts(path: Path, face: Face) -> dict[str, object]:
         "mirrored": face.curves.is_mirrored,
         "a": face.a,
         "modes": face.modes,
+        "weights": dict(face.weights),
         "size_mm": _size_mm(face),
         "texture": texture,
         "bytes": path.stat().st_size,
@@ -75,11 +76,21 @@ def _rows(path: Path, face: Face) -> list[tuple[str, str]]:
         ("name", face.name or "-"),
         ("boundary curves", f"{facts['curves']} of {facts['points']} points{mirrored}"),
         ("equation", f"a = {face.a:g}, {face.modes} Fourier modes and the remainder"),
+        *_weights(face),
         ("size", f"{width:.0f} mm wide, {height:.0f} mm high, {depth:.0f} mm deep"),
         ("texture", _texture(face)),
         ("file", size_in_words(path.stat().st_size)),
     ]
     return rows + [(f"note: {topic}", text) for topic, text in face.notes.items()]
+
+
+def _weights(face: Face) -> list[tuple[str, str]]:
+    """One row for each kind of control that is not 0."""
+    by_kind: dict[str, list[str]] = {}
+    for control, value in face.controls:
+        if value != 0.0:
+            by_kind.setdefault(control.kind, []).append(f"{control.name} {value:.3g}")
+    return [(kind, ", ".join(values)) for kind, values in by_kind.items()]
 
 
 def _texture(face: Face) -> str:

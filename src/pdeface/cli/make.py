@@ -7,7 +7,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pdeface.cli.options import JoinOption, MeshOption, QuietOption, check_outputs, parse_mesh
+from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
+from pdeface.cli.options import (
+    ClampOption,
+    ExpressionsOption,
+    JoinOption,
+    MeshOption,
+    QuietOption,
+    SetOption,
+    check_outputs,
+    parse_mesh,
+)
 from pdeface.cli.report import Report
 from pdeface.errors import InputError
 
@@ -47,6 +57,14 @@ def make(
             "the finer 55x92 and 109x184.",
         ),
     ] = None,
+    person: Annotated[
+        int | None,
+        typer.Option("--random", metavar="SEED", min=0, help="The shape of a random person "
+                     "instead of the neutral face; the same number gives the same person."),
+    ] = None,
+    set_: SetOption = None,
+    clamp: ClampOption = False,
+    expressions: ExpressionsOption = None,
     mesh: MeshOption = "109x161",
     join: JoinOption = "smooth",
     quiet: QuietOption = False,
@@ -54,7 +72,7 @@ def make(
     """Make a textured face from a portrait.
 
     The photo is warped onto the uv mesh so that its 25 feature points fall where the face has
-    them; the face keeps the shape of the neutral one.
+    them; the face has the shape of the neutral one unless --random or --set say otherwise.
 
     \b
     Examples:
@@ -62,8 +80,9 @@ def make(
       pdeface make -o face.pdeface -o face.glb -o face.png
       pdeface make me.jpg --points me.json -o me.glb
       pdeface make --level 28x46 --mesh 28x41 -o paper.obj
+      pdeface make --random 7 --set jawOpen=0.3 -o someone.png
     """
-    size = parse_mesh(mesh)
+    size, weights = parse_mesh(mesh), parse_weights(set_)
     if (photo is None) != (points is None):
         given, missing = ("PHOTO", "--points FILE") if points is None else ("--points", "PHOTO")
         raise InputError(f"{given} also needs {missing}; give both, or none for the bundled one")
@@ -71,10 +90,12 @@ def make(
     from pdeface.formats import SUFFIXES
     from pdeface.pictures.image_file import FORMATS as PICTURES
 
+    shape = with_weights(_shape(person, level), weights, clamp)
+    moving = chosen_expressions(shape, expressions, out)
     check_outputs(out, [photo, points], [*SUFFIXES, *PICTURES])
     report = Report(quiet)
     with report.step("warping the photo onto the uv mesh"):
-        face = _textured(pdeface.neutral(level) if level else pdeface.neutral(), photo, points)
+        face = _textured(shape, photo, points)
     for path in out:
         with report.step(f"writing {path}") as progress:
             if path.suffix.lower() in PICTURES:
@@ -82,8 +103,17 @@ def make(
 
                 demo_sheet(face, path, progress=progress)
             else:
-                pdeface.export(face, path, mesh=size, join=join)
+                pdeface.export(face, path, mesh=size, join=join, expressions=moving[path])
         report.wrote(path)
+
+
+def _shape(person: int | None, level: str | None) -> Face:
+    import pdeface
+
+    levels = {"level": level} if level else {}
+    if person is None:
+        return pdeface.neutral(**levels).with_name("portrait")
+    return pdeface.random(person, **levels)
 
 
 def _textured(face: Face, photo: Path | None, points: Path | None) -> Face:
@@ -91,9 +121,7 @@ def _textured(face: Face, photo: Path | None, points: Path | None) -> Face:
 
     if photo is None or points is None:
         image, places = portrait()
-        face = face.with_name("portrait").with_notes(
-            {"photo": "Eileen Collins; NASA, public domain"}
-        )
+        face = face.with_notes({"photo": "Eileen Collins; NASA, public domain"})
     else:
         # The points first: they are read in no time, and a mistake in them is likelier.
         places, image = FeaturePoints.load(points), read_photo(photo)

@@ -12,11 +12,14 @@ import typer
 from pdeface.errors import InputError
 
 __all__ = [
+    "ClampOption",
+    "ExpressionsOption",
     "FacePath",
     "Join",
     "JoinOption",
     "MeshOption",
     "QuietOption",
+    "SetOption",
     "check_outputs",
     "parse_mesh",
     "parse_size",
@@ -32,6 +35,27 @@ MeshOption = Annotated[
 ]
 JoinOption = Annotated[
     Join, typer.Option("--join", help="How patches meet: C2, or with the paper's creases.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="Value of a control, or of several: noseLength=0.4,jawOpen=1; may be repeated. "
+        "'pdeface controls' lists them.",
+    ),
+]
+ClampOption = Annotated[
+    bool, typer.Option("--clamp", help="Bring values of --set into their range.")
+]
+ExpressionsOption = Annotated[
+    str | None,
+    typer.Option(
+        "--expressions",
+        metavar="all|none|NAME,...",
+        help="Which expressions a .glb or .gltf can make, as morph targets; by default all that "
+        "the face can.",
+    ),
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
 

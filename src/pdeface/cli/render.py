@@ -7,10 +7,13 @@ from typing import Annotated
 
 import typer
 
+from pdeface.cli.moves import parse_weights, with_weights
 from pdeface.cli.options import (
+    ClampOption,
     FacePath,
     JoinOption,
     QuietOption,
+    SetOption,
     check_outputs,
     parse_mesh,
     parse_size,
@@ -71,6 +74,8 @@ def render(
     loops: Annotated[
         bool, typer.Option("--loops", help="Style curves: the whole closed curves.")
     ] = False,
+    set_: SetOption = None,
+    clamp: ClampOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """Draw a face.
@@ -81,15 +86,17 @@ def render(
       pdeface render face.pdeface -o side.png --view profile --style shaded
       pdeface render face.pdeface -o curves.png --view -35 --style curves
       pdeface render face.pdeface -o big.png --size 1600x2000 --transparent
+      pdeface render face.pdeface -o wink.png --set eyeBlinkRight=1,mouthSmileRight=0.5
     """
     pixels = parse_size(size)
     grid = parse_mesh(mesh) if mesh else None
+    weights = parse_weights(set_)
     report = Report(quiet)
     import pdeface
     from pdeface.pictures.image_file import FORMATS
 
+    value = with_weights(pdeface.load(face), weights, clamp)
     check_outputs([out], [face], list(FORMATS))
-    value = pdeface.load(face)
     with report.step(f"drawing {out}"):
         pdeface.render(
             value,

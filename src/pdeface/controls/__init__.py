@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from pdeface.controls import measured
+from pdeface.controls import measured, shape
 from pdeface.controls.arkit import ARKIT, EXPRESSIONS, SOURCES
 from pdeface.controls.control import Control
 from pdeface.controls.measured import Displacement, slits
@@ -48,7 +48,11 @@ def _identity(index: int) -> Control:
 
 
 CONTROLS: Mapping[str, Control] = MappingProxyType(
-    {c.name: c for c in (*map(_identity, range(IDENTITIES)), *EXPRESSIONS.values())}
+    {
+        **shape.SHAPE_CONTROLS,
+        **{control.name: control for control in map(_identity, range(IDENTITIES))},
+        **EXPRESSIONS,
+    }
 )
 """Every control by name, in the order in which they are listed."""
 
@@ -71,19 +75,19 @@ def checked_weights(weights: Mapping[str, float], *, clamp: bool = False) -> dic
     return {name: value for name, value in values.items() if value != 0.0}
 
 
-def displacement(weights: Mapping[str, float], shape: tuple[int, int]) -> Displacement:
+def displacement(weights: Mapping[str, float], size: tuple[int, int]) -> Displacement:
     """Displacement of K curves of M points by all controls together.
 
     Args:
         weights: values by name.
-        shape: (K, M).
+        size: (K, M).
 
     Raises:
         InputError: an expression and a K for which no curve lies on the lids and lips.
     """
-    total = Displacement.none(shape)
+    total = Displacement.none(size)
     for name, weight in weights.items():
-        for part in _parts(name, shape):
+        for part in _parts(name, size):
             total.smooth[...] += weight * part.smooth
             total.parting[...] += weight * part.parting
     return total
@@ -96,10 +100,15 @@ def random_weights(seed: int | None = None) -> dict[str, float]:
     return {_identity(index).name: value for index, value in enumerate(values)}
 
 
-def _parts(name: str, shape: tuple[int, int]) -> list[Displacement]:
-    if CONTROLS[name].kind == "identity":
-        return [measured.identity(int(name.removeprefix("identity")) - 1, shape)]
-    return [measured.expression(source, shape) for source in SOURCES[name]]
+def _parts(name: str, size: tuple[int, int]) -> list[Displacement]:
+    match CONTROLS[name].kind:
+        case "shape":
+            smooth = shape.displacement(name, size)
+            return [Displacement(smooth, np.zeros_like(smooth))]
+        case "identity":
+            return [measured.identity(int(name.removeprefix("identity")) - 1, size)]
+        case "expression":
+            return [measured.expression(source, size) for source in SOURCES[name]]
 
 
 def _checked(control: Control, value: float, clamp: bool) -> float:

@@ -85,7 +85,7 @@ def export(
             "leave quads out for triangles"
         )
     if suffix in SUFFIXES_THAT_MOVE:
-        targets = _targets(face, mesh, join, expressions)
+        targets = _morph_targets(face, mesh, join, expressions)
         (write_glb if suffix == ".glb" else write_gltf)(face, targets, path)
         return
     surface = sample(face, mesh, join)
@@ -97,7 +97,7 @@ def export(
         write_stl(surface, path)
 
 
-def _targets(
+def _morph_targets(
     face: Face, mesh: tuple[int, int], join: Join, expressions: Expressions
 ) -> MorphTargets:
     """The face at rest in the expressions that a file can move, and these expressions."""

@@ -89,11 +89,12 @@ class MorphTargets:
     weights: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        size = 24 * len(self.names) * len(self.surface.vertices)
+        rows, columns = self.surface.grid
+        size = 24 * len(self.names) * rows * columns
         if size > _LARGEST:
             raise InputError(
-                f"{len(self.names)} expressions on a mesh of {' x '.join(map(str, self.surface.grid))} "
-                f"would take up to {size / 2**30:.1f} GiB, more than {_LARGEST >> 30}; "
+                f"{len(self.names)} expressions on a mesh of {rows} x {columns} would take up to "
+                f"{size / 2**30:.1f} GiB, and {_LARGEST >> 30} is the most; "
                 "choose a coarser mesh, or fewer expressions"
             )
 
@@ -115,11 +116,11 @@ class MorphTargets:
             positions = evaluator.positions(some).reshape(-1, count, 3)
             normals = evaluator.normals(some + base).reshape(-1, count, 3)
             for position, normal in zip(positions, normals, strict=True):
-                yield position, self._turned(normal)
+                yield position.astype(np.float32), self._turned(normal)
 
-    def _turned(self, normals: Float32) -> Float32:
+    def _turned(self, normals: NDArray[np.floating]) -> Float32:
         """Normals less those of the face; 0 where the surface is pinched and has none."""
-        turned = normals - self.surface.normals
+        turned = (normals - self.surface.normals).astype(np.float32)
         turned[np.einsum("ij,ij->i", normals, normals) < 0.5] = 0.0
         return turned
 
@@ -166,5 +167,4 @@ def _evaluator(
         join=join,
         parting=parting,
         mirrored=mirrored,
-        dtype=np.float32,
     )

@@ -70,8 +70,7 @@ def displacement(name: str, shape: tuple[int, int]) -> FloatArray:
             "shape controls need 27 n + 1 curves (28, 55, 109, ...) of an even number of points, "
             f"got {curves} x {points}; fit the face at such a level"
         )
-    taps = np.array([1.0, 4.0, 6.0, 4.0, 1.0]) / 16.0
-    half = np.einsum("a,b,abkmx->kmx", taps, taps, _FIELDS[name](sites((curves, points))))
+    half = _FIELDS[name](sites((curves, points)))
     closed = mirror_points(half)
     closed.setflags(write=False)
     return closed

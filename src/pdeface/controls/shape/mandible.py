@@ -20,31 +20,31 @@ def _lip() -> float:
 
 def _jaw_width(sites: Sites) -> FloatArray:
     mouth = landmark("mouth_seam_upper")[1]
-    window = rise(sites.x, 23 * MM, 60 * MM) * fall(sites.y, mouth - 8 * MM, mouth + 42 * MM)
+    window = rise(sites.x, 26 * MM, 58 * MM) * fall(sites.y, mouth - 8 * MM, mouth + 42 * MM)
     return move(window, (8 * MM, 0.0, 0.0))
 
 
 def _jaw_angle(sites: Sites) -> FloatArray:
     mouth = landmark("mouth_seam_upper")[1]
-    window = rise(sites.x, 21 * MM, 62 * MM) * fall(sites.y, mouth - 14 * MM, mouth + 30 * MM)
+    window = rise(sites.x, 24 * MM, 60 * MM) * fall(sites.y, mouth - 14 * MM, mouth + 30 * MM)
     return move(window, (1.5 * MM, -9 * MM, 0.0))
 
 
 def _chin_protrusion(sites: Sites) -> FloatArray:
     lip = _lip()
-    window = fall(sites.y, lip - 20 * MM, lip - 2 * MM) * fall(sites.aside, 10 * MM, 42 * MM)
+    window = fall(sites.y, lip - 18 * MM, lip - 4 * MM) * fall(sites.aside, 10 * MM, 42 * MM)
     return move(window * rise(sites.depth, 34 * MM, 79 * MM), (0.0, 0.0, 8 * MM))
 
 
 def _chin_height(sites: Sites) -> FloatArray:
     lip = _lip()
-    window = fall(sites.y, lip - 38 * MM, lip - 1 * MM) * fall(sites.aside, 16 * MM, 66 * MM)
+    window = fall(sites.y, lip - 36 * MM, lip - 3 * MM) * fall(sites.aside, 16 * MM, 60 * MM)
     return move(window, (0.0, -9 * MM, 0.0))
 
 
 def _chin_width(sites: Sites) -> FloatArray:
     lip = _lip()
-    window = fall(sites.y, lip - 28 * MM, lip - 2 * MM) * fall(sites.aside, 14 * MM, 56 * MM)
+    window = fall(sites.y, lip - 26 * MM, lip - 4 * MM) * fall(sites.aside, 16 * MM, 50 * MM)
     return stretch(window, sites, landmark("chin"), (0.3, 0.0, 0.0))
 
 

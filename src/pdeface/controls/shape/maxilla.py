@@ -23,7 +23,7 @@ def _mouth() -> FloatArray:
 def _width(sites: Sites) -> FloatArray:
     mouth = _mouth()
     up = hill(
-        sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 8 * MM, mouth[1] + 26 * MM
+        sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 8 * MM, mouth[1] + 23 * MM
     )
     window = up * fall(sites.aside, 25 * MM, 62 * MM) * rise(sites.depth, 10 * MM, 60 * MM)
     # Along the arch of the teeth: straight to the side, the corners would leave the cheeks.
@@ -33,7 +33,7 @@ def _width(sites: Sites) -> FloatArray:
 
 def _protrusion(sites: Sites) -> FloatArray:
     y = _mouth()[1]
-    up = hill(sites.y, y - 26 * MM, y - 9 * MM, y + 9 * MM, y + 25 * MM)
+    up = hill(sites.y, y - 24 * MM, y - 9 * MM, y + 9 * MM, y + 21 * MM)
     return move(up * fall(sites.aside, 12 * MM, 46 * MM), (0.0, 0.0, 5.5 * MM))
 
 
@@ -43,7 +43,7 @@ def _protrusion(sites: Sites) -> FloatArray:
 
 def _upper_lip(sites: Sites) -> FloatArray:
     border = ROWS["upper_lip_border"]
-    across = fall(sites.aside, 4 * MM, 27 * MM)
+    across = fall(sites.aside, 5 * MM, 23 * MM)
     swell = hill(sites.rows, border - 1.6, border + 0.1, border + 0.4, border + 2.2)
     lift = hill(sites.rows, border - 1.4, border - 0.1, border, border + 1.2)
     return move(across * swell, (0, 0, 2.8 * MM)) + move(across * lift, (0, 1.7 * MM, 0))
@@ -51,7 +51,7 @@ def _upper_lip(sites: Sites) -> FloatArray:
 
 def _lower_lip(sites: Sites) -> FloatArray:
     border = ROWS["lower_lip_border"]
-    across = fall(sites.aside, 4 * MM, 27 * MM)
+    across = fall(sites.aside, 5 * MM, 23 * MM)
     swell = hill(sites.rows, border - 2.1, border - 0.5, border, border + 1.6)
     drop = hill(sites.rows, border - 1.1, border, border + 0.1, border + 1.6)
     return move(across * swell, (0, 0, 2.8 * MM)) + move(across * drop, (0, -1.8 * MM, 0))
@@ -59,8 +59,8 @@ def _lower_lip(sites: Sites) -> FloatArray:
 
 def _philtrum(sites: Sites) -> FloatArray:
     base, lip = landmark("subnasale")[1], landmark("lower_lip_border")[1]
-    up = hill(sites.y, lip - 24 * MM, lip, base - 16 * MM, base + 3 * MM)
-    return move(up * fall(sites.aside, 28 * MM, 60 * MM), (0.0, -5 * MM, 0.0))
+    up = hill(sites.y, lip - 22 * MM, lip - 2 * MM, base - 15 * MM, base + 1 * MM)
+    return move(up * fall(sites.aside, 28 * MM, 54 * MM), (0.0, -5 * MM, 0.0))
 
 
 MAXILLA = (

@@ -35,36 +35,36 @@ def _across(sites: Sites, inner: float, outer: float) -> FloatArray:
 
 def _length(sites: Sites) -> FloatArray:
     base, root = _base(), _root()
-    up = hill(sites.y, base - 13.5 * MM, base + 4 * MM, root - 1 * MM, root + 20 * MM)
+    up = hill(sites.y, base - 11 * MM, base + 2 * MM, root - 1 * MM, root + 20 * MM)
     along = 1.25 * fall(sites.y, base, root - 1 * MM) - 0.25
-    return move(_across(sites, 15 * MM, 36 * MM) * up * along, (0.0, -5.5 * MM, 1.4 * MM))
+    return move(_across(sites, 15 * MM, 33 * MM) * up * along, (0.0, -5.5 * MM, 1.4 * MM))
 
 
 def _width(sites: Sites) -> FloatArray:
-    up = hill(sites.y, _base() - 12 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
-    return stretch(_across(sites, 15 * MM, 36 * MM) * up, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
+    up = hill(sites.y, _base() - 9 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
+    return stretch(_across(sites, 15 * MM, 33 * MM) * up, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
 
 
 def _bridge_height(sites: Sites) -> FloatArray:
     root = _root()
-    up = hill(sites.y, _tip() - 2 * MM, _tip() + 17 * MM, root - 11 * MM, root + 11 * MM)
-    return move(up * fall(sites.aside, 3 * MM, 16 * MM), (0.0, 0.0, 5.5 * MM))
+    up = hill(sites.y, _tip() - 2 * MM, _tip() + 17 * MM, root - 11 * MM, root + 9 * MM)
+    return move(up * fall(sites.aside, 2 * MM, 13 * MM), (0.0, 0.0, 6.5 * MM))
 
 
 def _tip_projection(sites: Sites) -> FloatArray:
-    up = hill(sites.y, _base() - 10 * MM, _tip() - 6 * MM, _tip() + 4 * MM, _root() - 9 * MM)
+    up = hill(sites.y, _base() - 8 * MM, _tip() - 7 * MM, _tip() + 4 * MM, _root() - 9 * MM)
     return move(up * _across(sites, 7 * MM, 27 * MM), (0.0, 0.0, 6.5 * MM))
 
 
 def _tip_rotation(sites: Sites) -> FloatArray:
-    up = hill(sites.y, _base() - 12 * MM, _base() + 1 * MM, _tip() + 8 * MM, _root() - 7 * MM)
+    up = hill(sites.y, _base() - 9 * MM, _base() + 1 * MM, _tip() + 8 * MM, _root() - 7 * MM)
     centre = (0.0, _tip() - 6 * MM, landmark("nose_tip")[2] - 25 * MM)
     return turn(up * _across(sites, 11 * MM, 32 * MM), sites, centre, (-0.27, 0.0, 0.0))
 
 
 def _nostril_width(sites: Sites) -> FloatArray:
     wing = (17 * MM, _tip() - 3 * MM, 0.0)
-    return move(dome(sites.points, wing, (17 * MM, 22 * MM, np.inf), 0.1), (3.2 * MM, 0.0, 0.0))
+    return move(dome(sites.points, wing, (16 * MM, 20 * MM, np.inf), 0.15), (3.6 * MM, 0.0, 0.0))
 
 
 NASAL = (

@@ -26,21 +26,21 @@ def _around_eye(sites: Sites, across: float, up: float, core: float) -> FloatArr
 
 
 def _size(sites: Sites) -> FloatArray:
-    window = _around_eye(sites, 33 * MM, 30 * MM, 0.45)
+    window = _around_eye(sites, 32 * MM, 28 * MM, 0.48)
     return stretch(window, sites, _eye(), (0.19, 0.19, 0.19))
 
 
 def _spacing(sites: Sites) -> FloatArray:
-    return move(_around_eye(sites, 34 * MM, 32 * MM, 0.48), (4.5 * MM, 0.0, 0.0))
+    return move(_around_eye(sites, 33 * MM, 29 * MM, 0.5), (4.5 * MM, 0.0, 0.0))
 
 
 def _depth(sites: Sites) -> FloatArray:
     socket = _eye() - (0.0, 5 * MM, 0.0)
-    return move(dome(sites.points, socket, (36 * MM, 33 * MM, np.inf), 0.3), (0.0, 0.0, -4.5 * MM))
+    return move(dome(sites.points, socket, (34 * MM, 31 * MM, np.inf), 0.32), (0.0, 0.0, -4.5 * MM))
 
 
 def _tilt(sites: Sites) -> FloatArray:
-    return turn(_around_eye(sites, 32 * MM, 28 * MM, 0.5), sites, _eye(), (0.0, 0.0, 0.16))
+    return turn(_around_eye(sites, 31 * MM, 26 * MM, 0.5), sites, _eye(), (0.0, 0.0, 0.2))
 
 
 ORBITAL = (

@@ -13,7 +13,7 @@ from pdeface.pde import GridEvaluator
 from pdeface.template import LEVELS, neutral_curves
 from pdeface.template.layout import PAPER_ROWS, ROWS
 
-__all__ = ["MM", "Sites", "landmark", "mirror_z", "sites"]
+__all__ = ["MM", "Sites", "averaged", "landmark", "mirror_z", "sites"]
 
 FloatArray = NDArray[np.float64]
 
@@ -25,20 +25,33 @@ MM = 1e-3
 # levels take the same field, so that a control does the same at all of them.
 _LEVEL = "28x46"
 
+# Windows are averaged over neighbours with these weights, along u and along v: what is too fine for
+# the 28 curves of the paper, and would ripple between them, is gone before they are laid.
+_WEIGHTS = np.array([1.0, 4.0, 6.0, 4.0, 1.0]) / 16.0
+_NEIGHBOURS = 2
+_STEP_UP = 4.0 * MM
+_STEP_ASIDE = 6.0 * MM
+_STEP_ROWS = 0.5
+
 _SIDES = np.array([-1.0, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
 class Sites:
-    """Places on the neutral face.
+    """The data points of front halves on the neutral face, each amid 5 x 5 neighbours.
 
     Attributes:
-        points: (..., 3) metres.
-        rows: (...) u in rows of the paper, 0 to 27.
+        points: (5, 5, K, M/2, 3) metres; neighbours in u, neighbours in v, curves, points.
+        rows: (5, 5, K, M/2) u in rows of the paper, 0 to 27.
     """
 
     points: FloatArray
     rows: FloatArray
+
+    @property
+    def places(self) -> FloatArray:
+        """(K, M/2, 3) the data points themselves."""
+        return self.points[_NEIGHBOURS, _NEIGHBOURS]
 
     @property
     def x(self) -> FloatArray:
@@ -71,6 +84,11 @@ class Sites:
         return Sites(self.points * _SIDES, self.rows)
 
 
+def averaged(window: FloatArray) -> FloatArray:
+    """(K, M/2) weights of the data points from those of their (5, 5, K, M/2) neighbours."""
+    return np.einsum("a,b,ab...->...", _WEIGHTS, _WEIGHTS, window)
+
+
 def mirror_z() -> float:
     """Height of the plane of reflection of the neutral face, metres."""
     return neutral_curves(_LEVEL).mirror_z
@@ -78,22 +96,21 @@ def mirror_z() -> float:
 
 @lru_cache(maxsize=16)
 def sites(shape: tuple[int, int]) -> Sites:
-    """Where the (K, M/2) data points of the front halves lie on the neutral face, with neighbours.
+    """The data points of K curves of M points on the neutral face.
 
-    Returns:
-        (5, 5, K, M/2) places: :data:`TAPS` about each data point across u, and along v.
+    Neighbours are half a row or half a column of the paper apart, at every level: what they
+    average is the same field.
     """
     v = curve_parameters(shape[1])[: shape[1] // 2]
     u = np.linspace(0.0, 1.0, shape[0])
-    steps = 0.5 * np.arange(-2.0, 3.0)
-    # Nothing lies beyond the first and the last curve: there the neighbours draw together.
-    reach = np.minimum(1.0 / (PAPER_ROWS - 1.0), np.minimum(u, 1.0 - u))
-    us = np.clip(u + steps[:, None] * reach, 0.0, 1.0)
-    vs = v + steps[:, None] * (2.0 * np.pi / LEVELS[_LEVEL][1])
-    points = _on_neutral(us.ravel(), vs.ravel()).reshape(*us.shape, *vs.shape, 3).swapaxes(1, 2)
+    places = _on_neutral(u, v)
     # The face is symmetrical but for rounding; what is made from it shall be so to the last bit.
-    points = 0.5 * (points + _SIDES * points[:, ::-1, :, ::-1])
-    rows = (PAPER_ROWS - 1.0) * us[:, None, :, None]
+    places = 0.5 * (places + _SIDES * places[:, ::-1])
+    steps = np.arange(-_NEIGHBOURS, _NEIGHBOURS + 1.0)
+    points = np.tile(places, (len(steps), len(steps), 1, 1, 1))
+    points[..., 1] -= _STEP_UP * steps[:, None, None, None]
+    points[..., 0] += _STEP_ASIDE * steps[:, None, None]
+    rows = (PAPER_ROWS - 1.0) * u[:, None] + _STEP_ROWS * steps[:, None, None, None]
     return Sites(points, np.broadcast_to(rows, points.shape[:-1]))
 
 
