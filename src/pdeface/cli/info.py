@@ -21,7 +21,7 @@ def info(
     face: FacePath,
     as_json: Annotated[bool, typer.Option("--json", help="As JSON, for programs.")] = False,
 ) -> None:
-    """Show what a face is made of: curves, controls that are not 0, texture, size.
+    """Show what a face is made of: curves, values of controls, texture, size.
 
     \b
     Examples:

@@ -32,7 +32,7 @@ def _jaw_angle(sites: Sites) -> FloatArray:
 
 def _chin_protrusion(sites: Sites) -> FloatArray:
     lip = _lip()
-    window = fall(sites.y, lip - 18 * MM, lip - 4 * MM) * fall(sites.aside, 10 * MM, 42 * MM)
+    window = fall(sites.y, lip - 21 * MM, lip - 3 * MM) * fall(sites.aside, 10 * MM, 42 * MM)
     return move(window * rise(sites.depth, 34 * MM, 79 * MM), (0.0, 0.0, 8 * MM))
 
 

@@ -23,7 +23,7 @@ def _mouth() -> FloatArray:
 def _width(sites: Sites) -> FloatArray:
     mouth = _mouth()
     up = hill(
-        sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 8 * MM, mouth[1] + 23 * MM
+        sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 7 * MM, mouth[1] + 25 * MM
     )
     window = up * fall(sites.aside, 25 * MM, 62 * MM) * rise(sites.depth, 10 * MM, 60 * MM)
     # Along the arch of the teeth: straight to the side, the corners would leave the cheeks.
