@@ -9,6 +9,7 @@ import typer
 
 from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
 from pdeface.cli.options import (
+    DEFAULT_MESH,
     ClampOption,
     ExpressionsOption,
     FacePath,
@@ -31,7 +32,7 @@ def export(
         typer.Option("-o", "--out", metavar="OUT", help="File to write; may be repeated. The "
                      "suffix picks the format: .glb, .gltf, .obj, .ply, .stl or .pdeface."),
     ],
-    mesh: MeshOption = "109x161",
+    mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
     quads: Annotated[
         bool | None,

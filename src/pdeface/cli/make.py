@@ -9,6 +9,7 @@ import typer
 
 from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
 from pdeface.cli.options import (
+    DEFAULT_MESH,
     ClampOption,
     ExpressionsOption,
     JoinOption,
@@ -65,7 +66,7 @@ def make(
     set_: SetOption = None,
     clamp: ClampOption = False,
     expressions: ExpressionsOption = None,
-    mesh: MeshOption = "109x161",
+    mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip

@@ -12,6 +12,7 @@ import typer
 from pdeface.errors import InputError
 
 __all__ = [
+    "DEFAULT_MESH",
     "ClampOption",
     "ExpressionsOption",
     "FacePath",
@@ -27,6 +28,8 @@ __all__ = [
 
 MOST_VERTICES = 10_000_000
 PIXELS = range(16, 8193)
+DEFAULT_MESH = "55x81"
+"""As many vertices as a head of an avatar has: with every expression a GLB of a few megabytes."""
 
 Join = Literal["smooth", "patchwise"]
 FacePath = Annotated[Path, typer.Argument(metavar="FACE", help="A .pdeface file.")]

@@ -85,12 +85,21 @@ def displacement(weights: Mapping[str, float], size: tuple[int, int]) -> Displac
     Raises:
         InputError: an expression and a K for which no curve lies on the lids and lips.
     """
-    total = Displacement.none(size)
+    by_kind: dict[str, dict[str, float]] = {"shape": {}, "identity": {}, "expression": {}}
     for name, weight in weights.items():
-        for part in _parts(name, size):
-            total.smooth[...] += weight * part.smooth
-            total.parting[...] += weight * part.parting
-    return total
+        by_kind[CONTROLS[name].kind][name] = weight
+    smooth, parting = np.zeros((*size, 3)), np.zeros((*size, 3))
+    for name, weight in by_kind["shape"].items():
+        smooth += weight * shape.displacement(name, size)
+    if by_kind["identity"]:
+        modes = {int(n.removeprefix("identity")) - 1: w for n, w in by_kind["identity"].items()}
+        smooth += measured.identities(modes, size)
+    if by_kind["expression"]:
+        sources = {s: w for n, w in by_kind["expression"].items() for s in SOURCES[n]}
+        moved = measured.expressions(sources, size)
+        smooth += moved.smooth
+        parting += moved.parting
+    return Displacement(smooth, parting)
 
 
 def random_weights(seed: int | None = None) -> dict[str, float]:
@@ -98,17 +107,6 @@ def random_weights(seed: int | None = None) -> dict[str, float]:
     drawn = np.random.default_rng(seed).normal(size=IDENTITIES)
     values = drawn.clip(-IDENTITY_RANGE, IDENTITY_RANGE).tolist()
     return {_identity(index).name: value for index, value in enumerate(values)}
-
-
-def _parts(name: str, size: tuple[int, int]) -> list[Displacement]:
-    match CONTROLS[name].kind:
-        case "shape":
-            smooth = shape.displacement(name, size)
-            return [Displacement(smooth, np.zeros_like(smooth))]
-        case "identity":
-            return [measured.identity(int(name.removeprefix("identity")) - 1, size)]
-        case "expression":
-            return [measured.expression(source, size) for source in SOURCES[name]]
 
 
 def _checked(control: Control, value: float, clamp: bool) -> float:

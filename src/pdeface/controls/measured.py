@@ -7,6 +7,7 @@ Technologies; see NOTICE).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
@@ -20,7 +21,15 @@ from pdeface.errors import InputError
 from pdeface.pde import Continuity, GridEvaluator
 from pdeface.template.layout import PAPER_ROWS, ROWS
 
-__all__ = ["DATA", "LEVEL", "Displacement", "expression", "identity", "identity_count", "slits"]
+__all__ = [
+    "DATA",
+    "LEVEL",
+    "Displacement",
+    "expressions",
+    "identities",
+    "identity_count",
+    "slits",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -39,15 +48,6 @@ class Displacement(NamedTuple):
 
     smooth: FloatArray
     parting: FloatArray
-
-    def __mul__(self, weight: object) -> Displacement:
-        factor = float(weight)  # type: ignore[arg-type]
-        return Displacement(self.smooth * factor, self.parting * factor)
-
-    @classmethod
-    def none(cls, shape: tuple[int, int]) -> Displacement:
-        """No displacement of K curves of M points."""
-        return cls(np.zeros((*shape, 3)), np.zeros((*shape, 3)))
 
 
 def slits(curves: int) -> dict[int, Continuity]:
@@ -73,18 +73,22 @@ def _data() -> MappingProxyType[str, NDArray[Any]]:
         return MappingProxyType({name: file[name] for name in file.files})
 
 
-@lru_cache(maxsize=256)
-def expression(name: str, shape: tuple[int, int]) -> Displacement:
-    """Displacement of K curves of M points by one of the measured expressions, at full weight.
+def expressions(weights: Mapping[str, float], size: tuple[int, int]) -> Displacement:
+    """Displacement of K curves of M points by measured expressions together.
 
     Args:
-        name: as measured, such as ``"eyeBlink_L"``.
-        shape: (K, M); K = 27 n + 1.
+        weights: values by name as measured, such as ``"eyeBlink_L"``.
+        size: (K, M); K = 27 n + 1.
+
+    Raises:
+        InputError: no curve of that level lies on the lids and lips.
     """
-    index = _data()["names"].tolist().index(name)
+    slits(size[0])
+    names = _data()["names"].tolist()
+    by_index = tuple((names.index(name), float(weight)) for name, weight in weights.items())
     return Displacement(
-        _at_level("smooth", index, shape, {}),
-        _at_level("parting", index, shape, slits(LEVEL[0])),
+        _at_level("smooth", by_index, size, {}),
+        _at_level("parting", by_index, size, slits(LEVEL[0])),
     )
 
 
@@ -93,23 +97,29 @@ def identity_count() -> int:
     return len(_data()["identity"])
 
 
-@lru_cache(maxsize=256)
-def identity(index: int, shape: tuple[int, int]) -> Displacement:
-    """Displacement by one standard deviation of an identity mode, counted from 0."""
-    smooth = _at_level("identity", index, shape, {})
-    return Displacement(smooth, np.zeros_like(smooth))
+def identities(weights: Mapping[int, float], size: tuple[int, int]) -> FloatArray:
+    """(K, M, 3) displacement by identity modes, counted from 0, in standard deviations."""
+    return _at_level("identity", tuple(weights.items()), size, {})
 
 
 def _at_level(
-    part: str, index: int, shape: tuple[int, int], continuity: dict[int, Continuity]
+    part: str,
+    weights: tuple[tuple[int, float], ...],
+    size: tuple[int, int],
+    continuity: dict[int, Continuity],
 ) -> FloatArray:
-    """(K, M, 3) one part of a measured displacement, read off its own surface."""
-    half = _data()[part][index] * _data()[f"{part}_scale"][index]
+    """(K, M, 3) sum of measured displacements, read off its own surface."""
+    scale, stored = _data()[f"{part}_scale"], _data()[part]
+    half = np.zeros(stored.shape[1:])
+    for index, weight in weights:
+        half += (weight * scale[index]) * stored[index]
     points = mirror_points(half)
-    if points.shape[:2] != shape:
-        u, v = np.linspace(0.0, 1.0, shape[0]), curve_parameters(shape[1])
+    if points.shape[:2] != size and half.any():
+        u, v = np.linspace(0.0, 1.0, size[0]), curve_parameters(size[1])
         evaluator = _evaluator(points.shape[:2], tuple(u), tuple(v), tuple(continuity))
         points = np.ascontiguousarray(evaluator.positions(points))
+    elif points.shape[:2] != size:
+        points = np.zeros((*size, 3))
     points.setflags(write=False)
     return points
 

@@ -101,7 +101,7 @@ def render(
 
 def face_camera(face: Face, view: View, size: tuple[int, int], loops: bool = False) -> Camera:
     """The camera that frames a face, or its closed curves."""
-    points = face.curves.points if loops else face.mesh(*PAPER_MESH).vertices
+    points = face.moved_curves.points if loops else face.mesh(*PAPER_MESH).vertices
     return frame(points, view, size[0] / size[1])
 
 

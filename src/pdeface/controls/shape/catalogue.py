@@ -1,4 +1,4 @@
-"""Every shape control by name, and the displacement that it stands for."""
+"""Every shape control by name, and the displacement of the curves that it stands for."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from pdeface.curves import mirror_points
 from pdeface.errors import InputError
 from pdeface.template.layout import PAPER_ROWS
 
-__all__ = ["SHAPE_CONTROLS", "displacement"]
+__all__ = ["COMBINABLE_RANGE", "SHAPE_CONTROLS", "displacement"]
 
 FloatArray = NDArray[np.float64]
 
@@ -44,6 +44,11 @@ SHAPE_CONTROLS: Mapping[str, Control] = MappingProxyType(
     {field.name: field.control(group) for group, fields in _GROUPS.items() for field in fields}
 )
 """The conformation controls by name, -1 to 1, grouped by the bones of the skull (section 2.3)."""
+
+COMBINABLE_RANGE = 1.0
+"""Values within +- this may be combined at random: of 2,000 combinations of all the controls, drawn
+evenly, none folds a cell of the 28 x 46 neutral face on a 109 x 161 mesh (``python -m
+benchmarks.combinations``, which has the finer levels, too)."""
 
 _FIELDS = {field.name: field.field for fields in _GROUPS.values() for field in fields}
 

@@ -1,4 +1,8 @@
-"""Displacement fields: what a control does to every place of the neutral face, at full weight."""
+"""Displacement fields: what a control does to the data points of the neutral face, at +1.
+
+A field is a motion of space (a translation, a scaling, a rotation) times a window. Windows are
+(5, 5, K, M/2) weights, of every data point and its neighbours, which the motions average.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,7 @@ __all__ = ["Field", "ShapeField", "both_sides", "move", "stretch", "turn"]
 FloatArray = NDArray[np.float64]
 
 Field = Callable[[Sites], FloatArray]
-"""Places to (..., 3) displacements, metres."""
+"""Data points to their (K, M/2, 3) displacements, metres."""
 
 _SIDES = np.array([-1.0, 1.0, 1.0])
 
@@ -40,19 +44,19 @@ class ShapeField(NamedTuple):
 
 
 def move(window: FloatArray, by: ArrayLike) -> FloatArray:
-    """(..., 3) a translation by (3,) metres where the window is 1."""
+    """(K, M/2, 3) a translation by (3,) metres where the window is 1."""
     return averaged(window)[..., None] * np.asarray(by)
 
 
 def stretch(
     window: FloatArray, sites: Sites, about: ArrayLike, by: tuple[float, float, float]
 ) -> FloatArray:
-    """(..., 3) a scaling about a place, by so much of the distance along x, y and z."""
+    """(K, M/2, 3) a scaling about a place, by so much of the distance along x, y and z."""
     return averaged(window)[..., None] * (sites.places - np.asarray(about)) * np.asarray(by)
 
 
 def turn(window: FloatArray, sites: Sites, about: ArrayLike, by: ArrayLike) -> FloatArray:
-    """(..., 3) a rotation about an axis (3,), whose length is the angle in radians.
+    """(K, M/2, 3) a rotation about an axis (3,), whose length is the angle in radians.
 
     It is linear in the weight, so a place moves along the tangent of its circle.
     """

@@ -22,9 +22,7 @@ def _mouth() -> FloatArray:
 
 def _width(sites: Sites) -> FloatArray:
     mouth = _mouth()
-    up = hill(
-        sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 7 * MM, mouth[1] + 25 * MM
-    )
+    up = hill(sites.y, mouth[1] - 30 * MM, mouth[1] - 8 * MM, mouth[1] + 7 * MM, mouth[1] + 25 * MM)
     window = up * fall(sites.aside, 25 * MM, 62 * MM) * rise(sites.depth, 10 * MM, 60 * MM)
     # Along the arch of the teeth: straight to the side, the corners would leave the cheeks.
     arch = move(-window * sites.x**2 / (50 * MM), (0.0, 0.0, 1.0))
@@ -37,8 +35,8 @@ def _protrusion(sites: Sites) -> FloatArray:
     return move(up * fall(sites.aside, 12 * MM, 46 * MM), (0.0, 0.0, 5.5 * MM))
 
 
-# The lips by rows: upper and lower lip lie against each other, and no place in space tells them
-# apart. They swell forward as a whole; only their borders go up or down, so that the seam stays.
+# The lips go by rows: they lie against each other, and no place in space tells them apart. Each swells
+# forward as a whole; only its border goes up or down, so that the seam stays where it is.
 
 
 def _upper_lip(sites: Sites) -> FloatArray:

@@ -42,7 +42,8 @@ def _length(sites: Sites) -> FloatArray:
 
 def _width(sites: Sites) -> FloatArray:
     up = hill(sites.y, _base() - 9 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
-    return stretch(_across(sites, 15 * MM, 33 * MM) * up, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
+    window = _across(sites, 15 * MM, 33 * MM) * up
+    return stretch(window, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
 
 
 def _bridge_height(sites: Sites) -> FloatArray:

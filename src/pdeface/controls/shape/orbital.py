@@ -1,4 +1,7 @@
-"""The orbits: the eyes with their lids. Lids and mid-eye row move as one."""
+"""The orbits: the eyes with their lids.
+
+Lids and mid-eye row move as one, nearly rigidly, so that an eyeball fits behind them.
+"""
 
 from __future__ import annotations
 
@@ -35,6 +38,7 @@ def _spacing(sites: Sites) -> FloatArray:
 
 
 def _depth(sites: Sites) -> FloatArray:
+    # A socket is deeper below the eye than above: the brow stays.
     socket = _eye() - (0.0, 5 * MM, 0.0)
     return move(dome(sites.points, socket, (34 * MM, 31 * MM, np.inf), 0.32), (0.0, 0.0, -4.5 * MM))
 

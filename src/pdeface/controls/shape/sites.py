@@ -20,13 +20,14 @@ FloatArray = NDArray[np.float64]
 MM = 1e-3
 """A millimetre."""
 
-# The paper's level. Its surface is smooth enough that sampling it at any level's data points loses
-# nothing, and there a control whose window is 1 is the exact motion of every data point. Finer
-# levels take the same field, so that a control does the same at all of them.
+# Fields live on the neutral surface of the paper's level. At that level a motion without a window is
+# then the exact motion of every data point, at finer ones the same smooth motion: made from their
+# own nostrils and lids, it would ripple when it is sampled at 28 curves.
 _LEVEL = "28x46"
 
-# Windows are averaged over neighbours with these weights, along u and along v: what is too fine for
-# the 28 curves of the paper, and would ripple between them, is gone before they are laid.
+# Windows are averaged over neighbours in space with these weights, upwards and sideways: what is too
+# fine for the 28 x 46 data points of the paper, and would ripple between them, is gone before it is
+# sampled. (Neighbours in u would not do: where rows crowd, the average bends and leaves a ledge.)
 _WEIGHTS = np.array([1.0, 4.0, 6.0, 4.0, 1.0]) / 16.0
 _NEIGHBOURS = 2
 _STEP_UP = 4.0 * MM
@@ -41,8 +42,9 @@ class Sites:
     """The data points of front halves on the neutral face, each amid 5 x 5 neighbours.
 
     Attributes:
-        points: (5, 5, K, M/2, 3) metres; neighbours in u, neighbours in v, curves, points.
-        rows: (5, 5, K, M/2) u in rows of the paper, 0 to 27.
+        points: (5, 5, K, M/2, 3) metres; neighbours from above to below, from the subject's
+            right to left, curves, points.
+        rows: (5, 5, K, M/2) u in rows of the paper, 0 to 27 and a little beyond.
     """
 
     points: FloatArray
@@ -55,27 +57,27 @@ class Sites:
 
     @property
     def x(self) -> FloatArray:
-        """(...) towards the subject's left."""
+        """(5, 5, K, M/2) towards the subject's left."""
         return self.points[..., 0]
 
     @property
     def y(self) -> FloatArray:
-        """(...) upwards."""
+        """(5, 5, K, M/2) upwards."""
         return self.points[..., 1]
 
     @property
     def z(self) -> FloatArray:
-        """(...) forwards."""
+        """(5, 5, K, M/2) forwards."""
         return self.points[..., 2]
 
     @cached_property
     def aside(self) -> FloatArray:
-        """(...) distance from the midline plane."""
+        """(5, 5, K, M/2) distance from the midline plane."""
         return np.abs(self.x)
 
     @property
     def depth(self) -> FloatArray:
-        """(...) distance in front of the plane of reflection."""
+        """(5, 5, K, M/2) distance in front of the plane of reflection."""
         return self.z - mirror_z()
 
     @cached_property
@@ -96,11 +98,7 @@ def mirror_z() -> float:
 
 @lru_cache(maxsize=16)
 def sites(shape: tuple[int, int]) -> Sites:
-    """The data points of K curves of M points on the neutral face.
-
-    Neighbours are half a row or half a column of the paper apart, at every level: what they
-    average is the same field.
-    """
+    """The data points of K curves of M points on the neutral face."""
     v = curve_parameters(shape[1])[: shape[1] // 2]
     u = np.linspace(0.0, 1.0, shape[0])
     places = _on_neutral(u, v)

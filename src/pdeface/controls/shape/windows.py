@@ -1,7 +1,8 @@
 """Smooth windows: weights from 0 to 1 that say where a control acts.
 
-All have two continuous derivatives and are exactly 0 outside their support. Made of places in
-space, they bend space itself: a field whose gradient stays below 1 folds no surface, on any mesh.
+All have two continuous derivatives and are exactly 0 outside their support. Most are functions of
+places in space, so that what they weigh is a motion of space itself: as long as its gradient stays
+below 1 it folds no surface, on any mesh.
 """
 
 from __future__ import annotations

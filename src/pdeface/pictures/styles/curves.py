@@ -46,14 +46,14 @@ def _front(face: Face, camera: Camera, options: Options) -> list[Solid]:
     count = face.curves.shape[0]
     paths = face.mesh(count, SAMPLES).vertices.reshape(count, -1, 3)
     lines = merge([tube(path, line, CURVE) for path in paths])
-    return [*ground, lines, balls(face.curves.half, dot, POINT, camera)]
+    return [*ground, lines, balls(face.moved_curves.half, dot, POINT, camera)]
 
 
 def _loops(face: Face, camera: Camera) -> list[Solid]:
     line, dot = _radii(face, camera)
     count = face.curves.shape[0]
     paths = face.mesh(count, 2 * SAMPLES, extent="loop").vertices.reshape(count, -1, 3)
-    points = face.curves.points.reshape(-1, 3)
+    points = face.moved_curves.points.reshape(-1, 3)
     lines = [tube(p, line, _faded(p, camera, points, CURVE), closed=True) for p in paths]
     return [merge(lines), balls(points, dot, _faded(points, camera, points, POINT), camera)]
 
