@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import pdeface
-from pdeface.cli import controls, export, info, make, paper, render
+from pdeface.cli import animate, controls, export, info, make, paper, render
 from pdeface.errors import InputError, PDEFaceError
 
 __all__ = ["app", "run"]
@@ -29,6 +29,7 @@ app = typer.Typer(
 app.command("make")(make.make)
 app.command("export")(export.export)
 app.command("render")(render.render)
+app.command("animate")(animate.animate)
 app.command("info")(info.info)
 app.command("controls")(controls.controls)
 app.command("paper")(paper.paper)
@@ -59,6 +60,7 @@ def _pdeface(
       pdeface make -o face.glb -o face.pdeface    the bundled portrait as a textured face
       pdeface export face.pdeface -o face.obj     another format, any mesh size
       pdeface render face.pdeface -o face.png     a picture of it
+      pdeface animate face.pdeface talk -o a.glb  a face that talks
       pdeface info face.pdeface                   what it is made of
       pdeface controls --kind expression          what it can be set to
 

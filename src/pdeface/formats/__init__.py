@@ -7,6 +7,7 @@ from pathlib import Path
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.files import PathLike
+from pdeface.formats._animation import Animation
 from pdeface.formats._sample import sample
 from pdeface.formats._targets import Expressions, MorphTargets, expression_names
 from pdeface.formats.gltf import write_glb, write_gltf
@@ -15,7 +16,7 @@ from pdeface.formats.ply import write_ply
 from pdeface.formats.stl import write_stl
 from pdeface.pde import Join
 
-__all__ = ["SUFFIXES", "SUFFIXES_THAT_MOVE", "export", "expression_names"]
+__all__ = ["SUFFIXES", "SUFFIXES_THAT_MOVE", "Animation", "export", "expression_names"]
 
 _MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl")
 _WITH_QUADS = (".obj", ".ply")
@@ -34,6 +35,7 @@ def export(
     join: Join = "smooth",
     quads: bool | None = None,
     expressions: Expressions = None,
+    animation: Animation | None = None,
 ) -> None:
     """Write ``face`` to ``path`` in the format that its suffix names.
 
@@ -55,11 +57,14 @@ def export(
             refuse, triangles; the other formats have triangles only.
         expressions: which become morph targets: ``"all"``, or some by name. By default all that
             the face can make, which are none if its curves do not lie on lids and lips.
+        animation: what morph targets and head do over time, for ``.glb`` and ``.gltf``. Of its
+            expressions those that are no morph target are left out; those it does not name stay
+            as the face has them.
 
     Raises:
         InputError: an unknown suffix or expression, a mesh, join or expression that the face
-            cannot have, quads or expressions in a format without them, or a place that cannot be
-            written.
+            cannot have, quads, expressions or an animation in a format without them, an animation
+            of nothing that the file has, or a place that cannot be written.
         MissingExtraError: the face has a texture and Pillow is not installed.
 
     Example:
@@ -76,6 +81,11 @@ def export(
             f"expressions can be written to {' and '.join(SUFFIXES_THAT_MOVE)}, not to {suffix}; "
             "leave them out"
         )
+    if animation is not None and suffix not in SUFFIXES_THAT_MOVE:
+        raise InputError(
+            f"an animation can be written to {' and '.join(SUFFIXES_THAT_MOVE)}, not to {suffix}; "
+            "leave it out"
+        )
     if suffix == ".pdeface":
         face.save(path)
         return
@@ -86,7 +96,7 @@ def export(
         )
     if suffix in SUFFIXES_THAT_MOVE:
         targets = _morph_targets(face, mesh, join, expressions)
-        (write_glb if suffix == ".glb" else write_gltf)(face, targets, path)
+        (write_glb if suffix == ".glb" else write_gltf)(face, targets, path, animation)
         return
     surface = sample(face, mesh, join)
     if suffix == ".obj":

@@ -56,17 +56,17 @@ class Animation:
             object.__setattr__(self, "head", head)
 
 
-def add_head(document: GltfBuilder, face: int) -> int:
-    """Put a node that turns about the neck above the node of a face.
+def add_head(document: GltfBuilder, **face: Any) -> tuple[int, int]:
+    """Add a node that turns about the neck, and below it one with these properties, the face.
 
-    Args:
-        document: to which it is added.
-        face: a node of which ``back_from_pivot`` is the translation.
+    At rest the face is where it would be without the other.
 
     Returns:
-        The node.
+        The node of the head and that of the face.
     """
-    return document.add("nodes", name="head", translation=list(PIVOT), children=[face])
+    back = [0.0 - coordinate for coordinate in PIVOT]
+    below = document.add("nodes", **face, translation=back)
+    return document.add("nodes", name="head", translation=list(PIVOT), children=[below]), below
 
 
 def add_animation(

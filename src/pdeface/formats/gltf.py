@@ -6,6 +6,7 @@ from typing import Any
 
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
+from pdeface.formats._animation import Animation, add_animation, add_head
 from pdeface.formats._gltf_builder import GltfBuilder
 from pdeface.formats._sample import Sample
 from pdeface.formats._shared import GENERATOR, ROUGHNESS, SKIN, linear
@@ -23,30 +24,42 @@ UNTURNED = 5e-4
 """The like for unit normals. It changes shading by an eighth of a grey level of 256 at most."""
 
 
-def write_glb(face: Face, targets: MorphTargets, path: PathLike) -> None:
+def write_glb(
+    face: Face, targets: MorphTargets, path: PathLike, animation: Animation | None = None
+) -> None:
     """Write a GLB with its texture embedded.
 
     Raises:
-        InputError: more than 4 GiB, or a place that cannot be written.
+        InputError: more than 4 GiB, an animation of nothing, or a place that cannot be written.
     """
-    atomic_write(path, build_gltf(face, targets).to_glb())
+    atomic_write(path, build_gltf(face, targets, animation).to_glb())
 
 
-def write_gltf(face: Face, targets: MorphTargets, path: PathLike) -> None:
+def write_gltf(
+    face: Face, targets: MorphTargets, path: PathLike, animation: Animation | None = None
+) -> None:
     """Write a .gltf with buffer and texture embedded.
 
     Raises:
-        InputError: a place that cannot be written.
+        InputError: an animation of nothing, or a place that cannot be written.
     """
-    atomic_write(path, build_gltf(face, targets).to_gltf())
+    atomic_write(path, build_gltf(face, targets, animation).to_gltf())
 
 
-def build_gltf(face: Face, targets: MorphTargets) -> GltfBuilder:
+def build_gltf(
+    face: Face, targets: MorphTargets, animation: Animation | None = None
+) -> GltfBuilder:
     """The document: one scene, one node, one mesh of one primitive, one material.
+
+    With an animation, the node lies below another, the head, which turns about the neck.
 
     Args:
         face: whose texture, name and notes go into the file.
         targets: the mesh, and the expressions that move it.
+        animation: what they and the head do over time.
+
+    Raises:
+        InputError: the animation moves none of them and no head.
     """
     document = GltfBuilder(GENERATOR)
     if "copyright" in face.notes:
@@ -59,8 +72,12 @@ def build_gltf(face: Face, targets: MorphTargets) -> GltfBuilder:
         # The specification has no place for names; this one every program knows.
         morphs = {"weights": targets.weights, "extras": {"targetNames": targets.names}}
     mesh = document.add("meshes", name=name, primitives=[primitive], **morphs)
-    node = document.add("nodes", name=name, mesh=mesh)
-    document.add("scenes", nodes=[node])
+    if animation is None:
+        root = document.add("nodes", name=name, mesh=mesh)
+    else:
+        root, node = add_head(document, name=name, mesh=mesh)
+        add_animation(document, animation, targets.names, targets.weights, node, root)
+    document.add("scenes", nodes=[root])
     return document
 
 

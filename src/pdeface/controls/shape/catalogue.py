@@ -22,7 +22,6 @@ from pdeface.controls.shape.sites import sites
 from pdeface.controls.shape.zygomatic import ZYGOMATIC
 from pdeface.curves import mirror_points
 from pdeface.errors import InputError
-from pdeface.template.layout import PAPER_ROWS
 
 __all__ = ["COMBINABLE_RANGE", "SHAPE_CONTROLS", "displacement"]
 
@@ -59,21 +58,21 @@ def displacement(name: str, shape: tuple[int, int]) -> FloatArray:
 
     Args:
         name: one of :data:`SHAPE_CONTROLS`.
-        shape: (K, M); K = 27 n + 1 and M even.
+        shape: (K, M), with an even M.
 
     Returns:
         (K, M, 3) metres, read-only; closed by reflection like the curves.
 
     Raises:
-        InputError: no such control, or curves on which the rows of the face have no place.
+        InputError: no such control, or curves that cannot be their own reflection.
     """
     if name not in _FIELDS:
         raise InputError(f"expected a shape control, got {name!r}; {_nearest(name)}")
     curves, points = shape
-    if curves < PAPER_ROWS or (curves - 1) % (PAPER_ROWS - 1) or points < 4 or points % 2:
+    if curves < 2 or points < 4 or points % 2:
         raise InputError(
-            "shape controls need 27 n + 1 curves (28, 55, 109, ...) of an even number of points, "
-            f"got {curves} x {points}; fit the face at such a level"
+            "shape controls need 2 curves or more with an even number of points, 4 or more, "
+            f"got {curves} x {points}; give (28, 46), for example"
         )
     half = _FIELDS[name](sites((curves, points)))
     closed = mirror_points(half)

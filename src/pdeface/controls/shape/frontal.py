@@ -33,7 +33,7 @@ def _width(sites: Sites) -> FloatArray:
 def _brow_ridge(sites: Sites) -> FloatArray:
     brow = (25 * MM, landmark("brow")[1] + 4 * MM, 0.0)
     window = dome(sites.points, brow, (37 * MM, 23 * MM, np.inf))
-    return move(window, (0.0, -0.5 * MM, 5.5 * MM))
+    return move(window, (0.0, -0.5 * MM, 6 * MM))
 
 
 FRONTAL = (

@@ -32,27 +32,27 @@ def _width(sites: Sites) -> FloatArray:
 def _protrusion(sites: Sites) -> FloatArray:
     y = _mouth()[1]
     up = hill(sites.y, y - 24 * MM, y - 9 * MM, y + 9 * MM, y + 21 * MM)
-    return move(up * fall(sites.aside, 12 * MM, 46 * MM), (0.0, 0.0, 5.5 * MM))
+    return move(up * fall(sites.aside, 12 * MM, 46 * MM), (0.0, 0.0, 6.5 * MM))
 
 
-# The lips go by rows: they lie against each other, and no place in space tells them apart. Each swells
-# forward as a whole; only its border goes up or down, so that the seam stays where it is.
+# The lips go by rows: they lie against each other, and no place in space tells them apart. Each
+# swells forward as a whole; only its border goes up or down, so that the seam stays where it is.
 
 
 def _upper_lip(sites: Sites) -> FloatArray:
     border = ROWS["upper_lip_border"]
     across = fall(sites.aside, 5 * MM, 23 * MM)
     swell = hill(sites.rows, border - 1.6, border + 0.1, border + 0.4, border + 2.2)
-    lift = hill(sites.rows, border - 1.4, border - 0.1, border, border + 1.2)
-    return move(across * swell, (0, 0, 2.8 * MM)) + move(across * lift, (0, 1.7 * MM, 0))
+    lift = hill(sites.rows, border - 1.3, border - 0.1, border, border + 0.9)
+    return move(across * swell, (0, 0, 3.2 * MM)) + move(across * lift, (0, 2.8 * MM, 0))
 
 
 def _lower_lip(sites: Sites) -> FloatArray:
     border = ROWS["lower_lip_border"]
     across = fall(sites.aside, 5 * MM, 23 * MM)
     swell = hill(sites.rows, border - 2.1, border - 0.5, border, border + 1.6)
-    drop = hill(sites.rows, border - 1.1, border, border + 0.1, border + 1.6)
-    return move(across * swell, (0, 0, 2.8 * MM)) + move(across * drop, (0, -1.8 * MM, 0))
+    drop = hill(sites.rows, border - 0.9, border, border + 0.1, border + 1.5)
+    return move(across * swell, (0, 0, 3.2 * MM)) + move(across * drop, (0, -2.9 * MM, 0))
 
 
 def _philtrum(sites: Sites) -> FloatArray:

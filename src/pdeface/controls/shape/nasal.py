@@ -41,7 +41,7 @@ def _length(sites: Sites) -> FloatArray:
 
 
 def _width(sites: Sites) -> FloatArray:
-    up = hill(sites.y, _base() - 9 * MM, _base(), _tip() + 28 * MM, _root() + 2 * MM)
+    up = hill(sites.y, _base() - 9 * MM, _base(), _tip() + 22 * MM, _root() - 2 * MM)
     window = _across(sites, 15 * MM, 33 * MM) * up
     return stretch(window, sites, landmark("nose_tip"), (0.19, 0.0, 0.0))
 
@@ -54,7 +54,7 @@ def _bridge_height(sites: Sites) -> FloatArray:
 
 def _tip_projection(sites: Sites) -> FloatArray:
     up = hill(sites.y, _base() - 8 * MM, _tip() - 7 * MM, _tip() + 4 * MM, _root() - 9 * MM)
-    return move(up * _across(sites, 7 * MM, 27 * MM), (0.0, 0.0, 6.5 * MM))
+    return move(up * _across(sites, 7 * MM, 27 * MM), (0.0, 0.0, 7.5 * MM))
 
 
 def _tip_rotation(sites: Sites) -> FloatArray:

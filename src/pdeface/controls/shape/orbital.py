@@ -30,7 +30,7 @@ def _around_eye(sites: Sites, across: float, up: float, core: float) -> FloatArr
 
 def _size(sites: Sites) -> FloatArray:
     window = _around_eye(sites, 32 * MM, 28 * MM, 0.48)
-    return stretch(window, sites, _eye(), (0.19, 0.19, 0.19))
+    return stretch(window, sites, _eye(), (0.23, 0.23, 0.23))
 
 
 def _spacing(sites: Sites) -> FloatArray:
@@ -40,7 +40,7 @@ def _spacing(sites: Sites) -> FloatArray:
 def _depth(sites: Sites) -> FloatArray:
     # A socket is deeper below the eye than above: the brow stays.
     socket = _eye() - (0.0, 5 * MM, 0.0)
-    return move(dome(sites.points, socket, (34 * MM, 31 * MM, np.inf), 0.32), (0.0, 0.0, -4.5 * MM))
+    return move(dome(sites.points, socket, (34 * MM, 31 * MM, np.inf), 0.32), (0.0, 0.0, -5 * MM))
 
 
 def _tilt(sites: Sites) -> FloatArray:

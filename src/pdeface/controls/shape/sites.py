@@ -20,19 +20,19 @@ FloatArray = NDArray[np.float64]
 MM = 1e-3
 """A millimetre."""
 
-# Fields live on the neutral surface of the paper's level. At that level a motion without a window is
-# then the exact motion of every data point, at finer ones the same smooth motion: made from their
-# own nostrils and lids, it would ripple when it is sampled at 28 curves.
+# Fields live on the neutral surface of the paper's level. At that level a motion without a window
+# is then the exact motion of every data point, and at finer ones the same smooth motion. Made from
+# the nostrils and lids of a finer level, it would ripple when it is sampled at 28 curves.
 _LEVEL = "28x46"
 
-# Windows are averaged over neighbours in space with these weights, upwards and sideways: what is too
-# fine for the 28 x 46 data points of the paper, and would ripple between them, is gone before it is
-# sampled. (Neighbours in u would not do: where rows crowd, the average bends and leaves a ledge.)
+# Windows are averaged over neighbours in space with these weights, upwards and sideways: what is
+# too fine for the 28 x 46 data points of the paper, and would ripple between them, is gone before
+# it is sampled. (Neighbours in u would not do: where rows crowd, they would leave a ledge.)
 _WEIGHTS = np.array([1.0, 4.0, 6.0, 4.0, 1.0]) / 16.0
 _NEIGHBOURS = 2
 _STEP_UP = 4.0 * MM
 _STEP_ASIDE = 6.0 * MM
-_STEP_ROWS = 0.5
+_STEP_ROWS = 0.35
 
 _SIDES = np.array([-1.0, 1.0, 1.0])
 
