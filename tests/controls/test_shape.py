@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -283,17 +285,27 @@ MAKES_GREATER = {
 }
 
 
+def measured(name: str, weight: float) -> float:
+    measure, _ = MAKES_GREATER[name]
+    return measure(lambda row, v=0.5: at(name, weight, row, v), lambda f: place(name, weight, f))
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_a_control_does_what_its_name_says(name: str) -> None:
-    measure, least = MAKES_GREATER[name]
+    _, least = MAKES_GREATER[name]
+    low, middle, high = (measured(name, weight) for weight in (-1.0, 0.0, 1.0))
+    assert high - middle >= least
+    assert middle - low >= least
 
-    def measured(weight: float) -> float:
-        return measure(
-            lambda row, v=0.5: at(name, weight, row, v), lambda f: place(name, weight, f)
-        )
 
-    assert measured(1.0) - measured(0.0) >= least
-    assert measured(0.0) - measured(-1.0) >= least
+def test_the_docs_list_every_control_and_how_much_it_does(root: Path) -> None:
+    text = (root / "docs" / "shape-controls.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| (\w+) \| (.+?) \| ([\d.]+) \|", text, re.MULTILINE)
+    assert [row[:3] for row in rows] == [
+        (control.name, control.group, control.description) for control in SHAPE_CONTROLS.values()
+    ]
+    for name, _, _, amount in rows:
+        assert measured(name, 1.0) - measured(name, 0.0) == pytest.approx(float(amount), abs=0.06)
 
 
 @pytest.mark.parametrize("level", LEVELS)

@@ -49,7 +49,7 @@ def _width(sites: Sites) -> FloatArray:
 def _bridge_height(sites: Sites) -> FloatArray:
     root = _root()
     up = hill(sites.y, _tip() - 2 * MM, _tip() + 17 * MM, root - 11 * MM, root + 9 * MM)
-    return move(up * fall(sites.aside, 1 * MM, 15 * MM), (0.0, 0.0, 6.5 * MM))
+    return move(up * fall(sites.aside, 0.0, 15 * MM), (0.0, 0.0, 7 * MM))
 
 
 def _tip_projection(sites: Sites) -> FloatArray:
