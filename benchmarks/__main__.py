@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from benchmarks import evaluation, startup, warp
+from benchmarks import combinations, evaluation, startup, warp
 
 evaluation.main()
 print()
 startup.main()
 print()
 warp.main([])
+print()
+combinations.main([])
