@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
+from pdeface.template import FEATURE_POINTS
 
 __all__ = [
     "NAMES",
@@ -27,34 +28,10 @@ __all__ = [
 
 FloatArray = NDArray[np.float64]
 
-POINT_NAMES: tuple[tuple[str, ...], ...] = (
-    (
-        "right_brow_extension",
-        "right_brow_middle",
-        "brow_centre",
-        "left_brow_middle",
-        "left_brow_extension",
-    ),
-    (
-        "right_eye_extension",
-        "right_eye_middle",
-        "eyes_centre",
-        "left_eye_middle",
-        "left_eye_extension",
-    ),
-    ("right_cheek", "right_nostril", "nose_tip", "left_nostril", "left_cheek"),
-    (
-        "right_mouth_extension",
-        "right_mouth_corner",
-        "mouth_centre",
-        "left_mouth_corner",
-        "left_mouth_extension",
-    ),
-    ("chin_1", "chin_2", "chin_3", "chin_4", "chin_5"),
-)
+POINT_NAMES = tuple(FEATURE_POINTS[row : row + 5] for row in range(0, 25, 5))
 """Five rows of five, from the forehead to the chin and from the subject's right to left."""
 
-NAMES = tuple(name for row in POINT_NAMES for name in row)
+NAMES = FEATURE_POINTS
 
 OPTIONAL_NAMES = ("upper_lip", "lower_lip")
 """For an open mouth: the middle of the upper lip's lower edge, and of the lower lip's upper edge.
