@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pdeface.controls.measured import DATA
+from pdeface.controls.measured import DATA, IDENTITIES
 
 pytest.importorskip("igl", reason="needs the extra 'template'")
 
@@ -21,6 +21,7 @@ def test_the_command_rebuilds_what_ships(shared_data: Path, tmp_path: Path) -> N
     subprocess.run(command, check=True)
     with np.load(target) as built, np.load(DATA) as shipped:
         assert set(built.files) == set(shipped.files)
+        assert len(shipped["identity"]) == IDENTITIES
         assert built["names"].tolist() == shipped["names"].tolist()
         for part in ("smooth", "parting", "identity"):
             scales = [f[f"{part}_scale"][:, None, None, None] for f in (built, shipped)]

@@ -16,7 +16,7 @@ import numpy as np
 from pdeface.controls import measured, shape
 from pdeface.controls.arkit import ARKIT, EXPRESSIONS, SOURCES
 from pdeface.controls.control import Control
-from pdeface.controls.measured import Displacement, slits
+from pdeface.controls.measured import IDENTITIES, Displacement, slits
 from pdeface.errors import InputError
 
 __all__ = [
@@ -32,8 +32,6 @@ __all__ = [
 
 IDENTITY_RANGE = 3.0
 """Identity weights are standard deviations."""
-
-IDENTITIES = 50
 
 
 def _identity(index: int) -> Control:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 from typing import Any
@@ -11,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.controls.build.openings import Opening, split
-from pdeface.controls.measured import DATA, LEVEL, slits
+from pdeface.controls.measured import DATA, IDENTITIES, LEVEL, slits
 from pdeface.curves import curve_parameters, mirror_points
-from pdeface.errors import InputError, PDEFaceError
+from pdeface.errors import InputError
 from pdeface.files import atomic_path
 from pdeface.pde.fit import fit_curves
 from pdeface.template.build.chart import Chart
 from pdeface.template.build.closing import close_head
+from pdeface.template.build.command import run
 from pdeface.template.build.cutting import cut_face
 from pdeface.template.build.head import CENTIMETRE, load_head
 from pdeface.template.build.parameterisation import Parameterisation
@@ -26,8 +26,6 @@ FloatArray = NDArray[np.float64]
 
 SAMPLES = (217, 368)
 IDENTITY_LEVEL = (28, 46)
-IDENTITIES = 50
-"""Identity modes kept of 100: they hold 98 per cent of the variance of the heads."""
 FAIRNESS, DAMPING = 2e-3, 0.5
 STEPS = 32767
 EDGE = 0.6
@@ -35,16 +33,7 @@ EDGE = 0.6
 
 def main() -> int:
     """Build the file of measured displacements."""
-    parser = argparse.ArgumentParser(prog="python -m pdeface.controls.build", description=__doc__)
-    parser.add_argument("head", type=Path, help="folder with ICT-FaceKit's head and its offsets")
-    parser.add_argument("-o", "--output", type=Path, default=DATA, help="file to write (.npz)")
-    arguments = parser.parse_args()
-    try:
-        build(arguments.head, arguments.output)
-    except PDEFaceError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return run("pdeface.controls.build", __doc__, DATA, build)
 
 
 class Sampler:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
 import numpy as np
 
 from pdeface.curves import curve_parameters, mirror_points
-from pdeface.errors import PDEFaceError
 from pdeface.files import atomic_path
 from pdeface.pde.fit import fit_curves
 from pdeface.template import DATA
 from pdeface.template.build.chart import Chart
 from pdeface.template.build.closing import close_head
+from pdeface.template.build.command import run
 from pdeface.template.build.cutting import MIRROR_Z, cut_face
 from pdeface.template.build.features import measure_columns, measure_features
 from pdeface.template.build.head import load_head
@@ -31,16 +30,7 @@ DAMPING = {"28x46": 0.5, "55x92": 1.0, "109x184": 4.0}
 
 def main() -> int:
     """Build the template file and print how near it is to the head."""
-    parser = argparse.ArgumentParser(prog="python -m pdeface.template.build", description=__doc__)
-    parser.add_argument("head", type=Path, help="folder with ICT-FaceKit's neutral head")
-    parser.add_argument("-o", "--output", type=Path, default=DATA, help="file to write (.npz)")
-    arguments = parser.parse_args()
-    try:
-        build(arguments.head, arguments.output)
-    except PDEFaceError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return run("pdeface.template.build", __doc__, DATA, build)
 
 
 def build(folder: Path, output: Path) -> None:
