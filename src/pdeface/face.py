@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
@@ -13,27 +12,33 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface import images
+from pdeface import images, template
 from pdeface.archive import FaceRecord, pack, unpack
 from pdeface.controls import (
     CONTROLS,
     Control,
+    Displacement,
     checked_weights,
-    displacement,
+    has_lids,
+    posed,
     random_weights,
     slits,
 )
 from pdeface.curves import BoundaryCurves
 from pdeface.errors import FileFormatError, InputError
 from pdeface.files import PathLike, atomic_write
-from pdeface.pde import GridEvaluator, Join, PDESurface
+from pdeface.pde import Join, PDESurface
 from pdeface.pde.surface import check_parameters
+from pdeface.sampler import sampler
 from pdeface.template import neutral_curves
 from pdeface.uvmesh import FaceMesh, UVMesh
 
-__all__ = ["Face", "load", "neutral", "random"]
+__all__ = ["Face", "Openings", "load", "neutral", "random"]
 
 FloatArray = NDArray[np.float64]
+
+Openings = Literal["cut", "none"]
+"""Whether eyes and mouth are openings of a mesh."""
 
 SUFFIX = ".pdeface"
 _LARGEST_FILE = 512 << 20
@@ -121,11 +126,16 @@ class Face:
         return self._changed(weights={**self.weights, **changed})
 
     @property
+    def displacement(self) -> Displacement:
+        """What the controls add to the curves."""
+        return posed(self.curves.points, self.weights, self.a, self.modes)
+
+    @property
     def moved_curves(self) -> BoundaryCurves:
         """The curves where the controls have moved them: what the surface passes through."""
         if not self.weights:
             return self.curves
-        moved = displacement(self.weights, self.curves.shape)
+        moved = self.displacement
         return self.curves.displaced(moved.smooth + moved.parting)
 
     def surface(self, join: Join = "smooth") -> PDESurface:
@@ -145,7 +155,7 @@ class Face:
         """Data points, and the displacement that parts the surface, if any does."""
         if not self.weights:
             return self.curves.points, None
-        moved = displacement(self.weights, self.curves.shape)
+        moved = self.displacement
         if join == "smooth" and moved.parting.any():
             return self.curves.points + moved.smooth, moved.parting
         return self.curves.points + moved.smooth + moved.parting, None
@@ -157,6 +167,7 @@ class Face:
         *,
         join: Join = "smooth",
         extent: Literal["face", "loop"] = "face",
+        openings: Openings = "cut",
     ) -> FaceMesh:
         """The surface sampled on a uv mesh, with the analytic normals.
 
@@ -164,23 +175,44 @@ class Face:
             rows, columns: samples along u and v.
             join: ``"smooth"`` (C2) or ``"patchwise"`` (the paper's).
             extent: ``"face"`` for 0 <= v <= pi, ``"loop"`` for the closed curves.
+            openings: ``"cut"`` for a face whose eyes and mouth are open, where it has lids and
+                lips and the mesh is fine enough; ``"none"`` for the paper's, closed everywhere.
         """
-        grid = UVMesh(rows, columns, extent)
+        grid = self.uv_mesh(rows, columns, join=join, extent=extent, openings=openings)
         points, parting = self._layers(join)
-        evaluator = _evaluator(
-            self.curves.shape, grid, self.a, self.modes, join, parting is not None
-        )
         if parting is not None:
             points = np.concatenate([points, parting])
-        vertices, normals = evaluator.positions_and_normals(points)
+        shape = self.curves.shape
+        evaluator = sampler(shape, grid, self.a, self.modes, join, parting is not None)
         return FaceMesh(
-            vertices=vertices.reshape(-1, 3).astype(np.float64, copy=False),
-            normals=normals.reshape(-1, 3).astype(np.float64, copy=False),
+            vertices=evaluator.positions(points),
+            normals=evaluator.normals(points),
             texcoords=grid.texcoords,
             quads=grid.quads,
+            fans=grid.fans,
             triangles=grid.triangles,
             grid=(rows, columns),
         )
+
+    def uv_mesh(
+        self,
+        rows: int = 28,
+        columns: int = 41,
+        *,
+        join: Join = "smooth",
+        extent: Literal["face", "loop"] = "face",
+        openings: Openings = "cut",
+    ) -> UVMesh:
+        """The uv mesh on which :meth:`mesh` samples the face; arguments as there."""
+        if openings not in ("cut", "none"):
+            raise InputError(f"openings are 'cut' or 'none', got {openings!r}")
+        cut = openings == "cut" and join == "smooth" and extent == "face" and self.has_lids
+        return UVMesh(rows, columns, extent, template.openings() if cut else ())
+
+    @property
+    def has_lids(self) -> bool:
+        """Whether curves lie on lids and lips, so that expressions can move them."""
+        return has_lids(self.curves.shape[0])
 
     def with_curves(self, curves: BoundaryCurves) -> Face:
         """The same face through other curves."""
@@ -348,14 +380,6 @@ def _check_texts(texts: list[str]) -> None:
             )
         if any("\ud800" <= c <= "\udfff" for c in text):
             raise InputError(f"{text!r} holds half a character; decode it as UTF-8")
-
-
-@lru_cache(maxsize=16)
-def _evaluator(
-    shape: tuple[int, int], grid: UVMesh, a: float, modes: int, join: Join, parts: bool
-) -> GridEvaluator:
-    parting = slits(shape[0]) if parts else None
-    return GridEvaluator(shape, grid.u, grid.v, a=a, modes=modes, join=join, parting=parting)
 
 
 def _frozen(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:

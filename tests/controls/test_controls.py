@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 import pdeface
 from pdeface import controls
 from pdeface.controls import CONTROLS
+from pdeface.controls.seams import seam
 from pdeface.errors import InputError
 from pdeface.face import random
 from pdeface.pde import PDESurface
@@ -36,11 +37,77 @@ def test_the_names_are_arkits(shared_data: Path) -> None:
     assert [name for name in controls.ARKIT if name != "tongueOut"] == EXPRESSIONS
 
 
-@given(st.dictionaries(st.sampled_from(EXPRESSIONS), st.floats(0, 1), min_size=1, max_size=5))
-def test_the_surface_is_linear_in_every_weight(weights: dict[str, float]) -> None:
+@pytest.mark.parametrize("name", EXPRESSIONS)
+def test_the_surface_is_linear_in_every_weight(name: str) -> None:
+    for weight in (0.1, 0.5, 0.9):
+        moved = positions(**{name: weight}) - positions()
+        np.testing.assert_allclose(moved, weight * alone(name), atol=1e-13)
+
+
+TOGETHER = {"eyeBlinkLeft", "eyeBlinkRight", "mouthClose"}
+"""What these add depends on what else there is."""
+LIPS = [n for n in EXPRESSIONS if n.startswith(("mouth", "jaw", "cheek", "nose"))]
+
+
+@given(
+    st.dictionaries(
+        st.sampled_from(sorted(set(EXPRESSIONS) - TOGETHER)), st.floats(0, 1), min_size=1
+    )
+)
+def test_expressions_add(weights: dict[str, float]) -> None:
     together = positions(**weights) - positions()
     one_by_one = sum(w * alone(name) for name, w in weights.items())
     np.testing.assert_allclose(together, one_by_one, atol=1e-13)
+
+
+@given(st.dictionaries(st.sampled_from(EXPRESSIONS), st.floats(0, 1), min_size=1, max_size=5))
+def test_measured_displacements_add(weights: dict[str, float]) -> None:
+    together = controls.displacement(weights, (28, 46))
+    for part in (0, 1):
+        added = sum(w * controls.displacement({n: 1.0}, (28, 46))[part] for n, w in weights.items())
+        np.testing.assert_allclose(together[part], added, atol=1e-13)
+
+
+@given(st.dictionaries(st.sampled_from(LIPS), st.floats(0, 1), min_size=1))
+def test_lips_do_not_cross(weights: dict[str, float]) -> None:
+    weights.pop("jawOpen", None)
+    moved = pdeface.neutral("55x92").set(**weights).displacement
+    gap = seam("mouth", (55, 92)).gap(moved.smooth, moved.parting)
+    assert gap[:, 1].min() > -5e-4
+
+
+@pytest.mark.parametrize(("level", "limit"), [("28x46", 8e-4), ("55x92", 3.5e-4)])
+@pytest.mark.parametrize("seed", [None, 0, 1, 2])
+@pytest.mark.parametrize("others", [{}, {"eyeSquintLeft": 1.0}], ids=str)
+def test_a_full_blink_closes_the_eye_of_anyone(level: str, limit: float, seed, others) -> None:
+    """Away from the corners, where 46 points round a curve cannot follow the lids."""
+    face = pdeface.neutral(level) if seed is None else random(seed, level)
+    face = face.set(eyeBlinkLeft=1.0, **others)
+    moved = face.displacement
+    lids = seam("left_eye", face.curves.shape)
+    upper, lower = lids.lines(face.curves.points + moved.smooth, moved.parting)
+    lower = np.stack([np.interp(upper[:, 0], lower[:, 0], lower[:, k]) for k in (1, 2)], axis=1)
+    assert np.linalg.norm(upper[8:-8, 1:] - lower[8:-8], axis=1).max() < limit
+
+
+def test_a_blink_closes_in_proportion() -> None:
+    face, size = pdeface.random(1).set(eyeWideRight=1.0), (28, 46)
+    lids = seam("right_eye", size)
+    gaps = []
+    for blink in (0.0, 0.25, 0.5, 1.0):
+        moved = face.set(eyeBlinkRight=blink).displacement
+        gaps.append(lids.gap(face.curves.points + moved.smooth, moved.parting))
+    for blink, gap in zip((0.25, 0.5), gaps[1:3], strict=True):
+        np.testing.assert_allclose(gap, (1 - blink) * gaps[0] + blink * gaps[3], atol=1e-12)
+
+
+def test_a_mouth_closes_what_is_open() -> None:
+    shut = pdeface.neutral().set(jawOpen=0.5, mouthClose=1.0)
+    assert shut.displacement.parting.any()
+    same = shut.set(mouthClose=0.5)
+    np.testing.assert_array_equal(shut.moved_curves.points, same.moved_curves.points)
+    alone = pdeface.neutral().set(mouthClose=1.0).moved_curves
+    assert alone == pdeface.neutral().curves
 
 
 @pytest.mark.parametrize("level", ["28x46", "55x92", "109x184"])
@@ -67,7 +134,7 @@ def test_displaced_curves_stay_closed_by_their_reflection(level: str) -> None:
 
 def test_mesh_and_surface_agree_where_the_face_parts() -> None:
     face = pdeface.neutral().set(jawOpen=1.0, eyeBlinkRight=0.7, mouthSmileLeft=0.3)
-    mesh = face.mesh(109, 161)
+    mesh = face.mesh(109, 161, openings="none")
     u, v = np.linspace(0, 1, 109)[:, None], np.linspace(0, np.pi, 161)
     surface = face.surface()
     np.testing.assert_allclose(mesh.vertices.reshape(109, 161, 3), surface(u, v), atol=1e-12)

@@ -15,6 +15,7 @@ from pdeface.cli.options import (
     FacePath,
     JoinOption,
     MeshOption,
+    OpeningsOption,
     QuietOption,
     SetOption,
     check_outputs,
@@ -34,6 +35,7 @@ def export(
     ],
     mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
+    openings: OpeningsOption = "cut",
     quads: Annotated[
         bool | None,
         typer.Option("--quads/--triangles", help="Quads (.obj, .ply) or triangles; by default "
@@ -71,5 +73,13 @@ def export(
     check_outputs(out, [face], SUFFIXES)
     for path in out:
         with report.step(f"writing {path}"):
-            pdeface.export(value, path, mesh=size, join=join, quads=quads, expressions=moving[path])
+            pdeface.export(
+                value,
+                path,
+                mesh=size,
+                join=join,
+                quads=quads,
+                expressions=moving[path],
+                openings=openings,
+            )
         report.wrote(path)

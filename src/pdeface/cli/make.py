@@ -14,6 +14,7 @@ from pdeface.cli.options import (
     ExpressionsOption,
     JoinOption,
     MeshOption,
+    OpeningsOption,
     QuietOption,
     SetOption,
     check_outputs,
@@ -68,6 +69,7 @@ def make(
     expressions: ExpressionsOption = None,
     mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
+    openings: OpeningsOption = "cut",
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
     """Make a textured face from a portrait.
@@ -104,7 +106,14 @@ def make(
 
                 demo_sheet(face, path, progress=progress)
             else:
-                pdeface.export(face, path, mesh=size, join=join, expressions=moving[path])
+                pdeface.export(
+                    face,
+                    path,
+                    mesh=size,
+                    join=join,
+                    expressions=moving[path],
+                    openings=openings,
+                )
         report.wrote(path)
 
 

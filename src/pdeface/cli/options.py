@@ -19,6 +19,7 @@ __all__ = [
     "Join",
     "JoinOption",
     "MeshOption",
+    "OpeningsOption",
     "QuietOption",
     "SetOption",
     "check_outputs",
@@ -59,6 +60,11 @@ ExpressionsOption = Annotated[
         help="Which expressions a .glb or .gltf can make, as morph targets; by default all that "
         "the face can.",
     ),
+]
+Openings = Literal["cut", "none"]
+OpeningsOption = Annotated[
+    Openings,
+    typer.Option("--openings", help="Eyes and mouth that open, or the paper's closed surface."),
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
 

@@ -12,6 +12,7 @@ from pdeface.cli.options import (
     ClampOption,
     FacePath,
     JoinOption,
+    OpeningsOption,
     QuietOption,
     SetOption,
     check_outputs,
@@ -57,6 +58,7 @@ def render(
         ),
     ] = None,
     join: JoinOption = "smooth",
+    openings: OpeningsOption = "cut",
     light: Annotated[
         str | None,
         typer.Option(
@@ -105,6 +107,7 @@ def render(
             style=style,
             mesh=grid,
             join=join,
+            openings=openings,
             size=pixels,
             background=background,
             transparent=transparent,

@@ -12,23 +12,32 @@ from math import isfinite
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pdeface.controls import measured, shape
 from pdeface.controls.arkit import ARKIT, EXPRESSIONS, SOURCES
+from pdeface.controls.contact import COMPANY, expressed
 from pdeface.controls.control import Control
-from pdeface.controls.measured import IDENTITIES, Displacement, slits
+from pdeface.controls.measured import IDENTITIES, Displacement, has_lids, slits
 from pdeface.errors import InputError
 
 __all__ = [
     "ARKIT",
+    "COMPANY",
     "CONTROLS",
     "Control",
     "Displacement",
     "checked_weights",
     "displacement",
+    "expressed",
+    "has_lids",
+    "person",
+    "posed",
     "random_weights",
     "slits",
 ]
+
+FloatArray = NDArray[np.float64]
 
 IDENTITY_RANGE = 3.0
 """Identity weights are standard deviations."""
@@ -73,8 +82,38 @@ def checked_weights(weights: Mapping[str, float], *, clamp: bool = False) -> dic
     return {name: value for name, value in values.items() if value != 0.0}
 
 
+def person(weights: Mapping[str, float], size: tuple[int, int]) -> FloatArray:
+    """(K, M, 3) displacement of K curves of M points by who it is: shape and identity."""
+    return displacement(_of_kinds(weights, {"shape", "identity"}), size).smooth
+
+
+def posed(
+    points: FloatArray, weights: Mapping[str, float], a: float = 1.0, modes: int = 6
+) -> Displacement:
+    """Displacement of a face's curves by all controls, its lids and lips kept in contact.
+
+    Args:
+        points: (K, M, 3) data points of the face without any.
+        weights: values by name.
+        a, modes: as for :class:`pdeface.pde.PDESurface`.
+
+    Raises:
+        InputError: an expression and a K for which no curve lies on the lids and lips.
+    """
+    size = points.shape[0], points.shape[1]
+    own = person(weights, size)
+    moved = expressed(points + own, _of_kinds(weights, {"expression"}), a, modes)
+    return Displacement(own + moved.smooth, moved.parting)
+
+
+def _of_kinds(weights: Mapping[str, float], kinds: set[str]) -> dict[str, float]:
+    return {name: weight for name, weight in weights.items() if CONTROLS[name].kind in kinds}
+
+
 def displacement(weights: Mapping[str, float], size: tuple[int, int]) -> Displacement:
-    """Displacement of K curves of M points by all controls together.
+    """Displacement of K curves of M points by all controls, as they were measured and added.
+
+    :func:`posed` keeps lids and lips in contact besides.
 
     Args:
         weights: values by name.

@@ -27,6 +27,7 @@ __all__ = [
     "LEVEL",
     "Displacement",
     "expressions",
+    "has_lids",
     "identities",
     "slits",
 ]
@@ -59,8 +60,8 @@ def slits(curves: int) -> dict[int, Continuity]:
     Raises:
         InputError: no curve lies on the lid margins and the mouth seam.
     """
-    step, rest = divmod(curves - 1, PAPER_ROWS - 1)
-    if rest:
+    step = (curves - 1) // (PAPER_ROWS - 1)
+    if not has_lids(curves):
         raise InputError(
             f"a face that moves needs 27 n + 1 curves (28, 55, 109, ...), got {curves}; "
             "fit it at such a level"
@@ -68,6 +69,11 @@ def slits(curves: int) -> dict[int, Continuity]:
     eye = range(step * ROWS["upper_lid_margin"], step * ROWS["lower_lid_margin"])
     mouth = range(step * ROWS["mouth_seam_upper"], step * ROWS["mouth_seam_lower"])
     return dict.fromkeys((*eye, *mouth), "slit")
+
+
+def has_lids(curves: int) -> bool:
+    """Whether curves lie on the lid margins and the mouth seam of a face of so many."""
+    return curves > 1 and (curves - 1) % (PAPER_ROWS - 1) == 0
 
 
 @lru_cache(maxsize=1)

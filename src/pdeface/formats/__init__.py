@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from pdeface.errors import InputError
-from pdeface.face import Face
+from pdeface.face import Face, Openings
 from pdeface.files import PathLike
 from pdeface.formats._animation import Animation
 from pdeface.formats._sample import sample
@@ -36,6 +36,7 @@ def export(
     quads: bool | None = None,
     expressions: Expressions = None,
     animation: Animation | None = None,
+    openings: Openings = "cut",
 ) -> None:
     """Write ``face`` to ``path`` in the format that its suffix names.
 
@@ -57,6 +58,7 @@ def export(
             refuse, triangles; the other formats have triangles only.
         expressions: which become morph targets: ``"all"``, or some by name. By default all that
             the face can make, which are none if its curves do not lie on lids and lips.
+        openings: ``"cut"`` for eyes and a mouth that open, ``"none"`` for the paper's closed face.
         animation: what morph targets and head do over time, for ``.glb`` and ``.gltf``. Of its
             expressions those that are no morph target are left out; those it does not name stay
             as the face has them.
@@ -95,10 +97,10 @@ def export(
             "leave quads out for triangles"
         )
     if suffix in SUFFIXES_THAT_MOVE:
-        targets = _morph_targets(face, mesh, join, expressions)
+        targets = _morph_targets(face, mesh, join, expressions, openings)
         (write_glb if suffix == ".glb" else write_gltf)(face, targets, path, animation)
         return
-    surface = sample(face, mesh, join)
+    surface = sample(face, mesh, join, openings)
     if suffix == ".obj":
         write_obj(face, surface, path, quads=quads is not False)
     elif suffix == ".ply":
@@ -108,10 +110,14 @@ def export(
 
 
 def _morph_targets(
-    face: Face, mesh: tuple[int, int], join: Join, expressions: Expressions
+    face: Face,
+    mesh: tuple[int, int],
+    join: Join,
+    expressions: Expressions,
+    openings: Openings,
 ) -> MorphTargets:
     """The face at rest in the expressions that a file can move, and these expressions."""
     names = expression_names(face, expressions)
     weights = tuple(face.weights.get(name, 0.0) for name in names)
     resting = face.with_weights(dict.fromkeys(names, 0.0))
-    return MorphTargets(resting, sample(resting, mesh, join), join, names, weights)
+    return MorphTargets(resting, sample(resting, mesh, join, openings), join, names, weights)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
-from pdeface.face import Face
+from pdeface.face import Face, Openings
 from pdeface.pde import Join
-from pdeface.uvmesh import FaceMesh
+from pdeface.uvmesh import FaceMesh, UVMesh
 
 __all__ = ["Sample", "sample"]
 
@@ -30,16 +30,18 @@ class Sample:
         normals: (V, 3), each of length 1.
         texcoords: (V, 2), top-left origin.
         quads: (C, 4) indices, anticlockwise seen from outside.
+        fans: (F, 3) triangles beside openings, which are no part of a quad.
         triangles: (T, 3) indices, anticlockwise seen from outside.
-        grid: the (rows, columns) of the uv mesh.
+        uv_mesh: where it was sampled.
     """
 
     vertices: Float32
     normals: Float32
     texcoords: Float32
     quads: IndexArray
+    fans: IndexArray
     triangles: IndexArray
-    grid: tuple[int, int]
+    uv_mesh: UVMesh
 
     @property
     def texcoords_from_below(self) -> Float32:
@@ -47,7 +49,7 @@ class Sample:
         return np.stack([self.texcoords[:, 0], 1.0 - self.texcoords[:, 1]], axis=1)
 
 
-def sample(face: Face, mesh: tuple[int, int], join: Join) -> Sample:
+def sample(face: Face, mesh: tuple[int, int], join: Join, openings: Openings = "cut") -> Sample:
     """Sample ``face`` on a uv mesh of ``mesh = (rows, columns)``.
 
     Raises:
@@ -62,7 +64,7 @@ def sample(face: Face, mesh: tuple[int, int], join: Join) -> Sample:
             f"a mesh has at most {_MOST_VERTICES} vertices, got {rows} x {columns}; "
             "(1081, 641) is as fine as any screen"
         )
-    dense = face.mesh(rows, columns, join=join)
+    dense = face.mesh(rows, columns, join=join, openings=openings)
     with np.errstate(over="ignore"):
         vertices = dense.vertices.astype(np.float32)
     if not np.isfinite(vertices).all():
@@ -75,8 +77,9 @@ def sample(face: Face, mesh: tuple[int, int], join: Join) -> Sample:
         normals=_unit_normals(dense),
         texcoords=dense.texcoords.astype(np.float32),
         quads=dense.quads,
+        fans=dense.fans,
         triangles=dense.triangles,
-        grid=dense.grid,
+        uv_mesh=face.uv_mesh(rows, columns, join=join, openings=openings),
     )
 
 

@@ -9,18 +9,17 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.controls import ARKIT, CONTROLS, displacement, slits
+from pdeface.controls import ARKIT, COMPANY, CONTROLS, Displacement, expressed, person, slits
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.formats._sample import Sample
-from pdeface.pde import GridEvaluator, Join
-from pdeface.uvmesh import UVMesh
+from pdeface.pde import Join
+from pdeface.sampler import sampler
 
 __all__ = ["Expressions", "MorphTargets", "expression_names"]
 
@@ -49,7 +48,7 @@ def expression_names(face: Face, expressions: Expressions) -> tuple[str, ...]:
     """
     every = tuple(name for name, control in CONTROLS.items() if control.kind == "expression")
     if expressions is None:
-        return every if _has_lids(face) else ()
+        return every if face.has_lids else ()
     if isinstance(expressions, str) and expressions == "all":
         names = every
     elif isinstance(expressions, str) or not isinstance(expressions, Sequence):
@@ -89,7 +88,7 @@ class MorphTargets:
     weights: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        rows, columns = self.surface.grid
+        rows, columns = self.surface.uv_mesh.rows, self.surface.uv_mesh.columns
         size = 24 * len(self.names) * rows * columns
         if size > _LARGEST:
             raise InputError(
@@ -101,22 +100,34 @@ class MorphTargets:
     def differences(self) -> Iterator[tuple[Float32, Float32]]:
         """(V, 3) positions, metres, and (V, 3) normals that each expression adds."""
         shape, count = self.face.curves.shape, len(self.surface.vertices)
-        moved = [displacement({name: 1.0}, shape) for name in self.names]
-        own = displacement(self.face.weights, shape)
+        own = self.face.displacement
+        moved = list(self._moved(own))
         parts = self.join == "smooth"
         base = _layers(self.face.curves.points + own.smooth, own.parting, parts)
         points = np.array([_layers(one.smooth, one.parting, parts) for one in moved])
         mirrored = self.face.curves.is_mirrored
-        evaluator = _evaluator(
-            shape, self.surface.grid, self.face.a, self.face.modes, self.join, parts, mirrored
+        evaluator = sampler(
+            shape, self.surface.uv_mesh, self.face.a, self.face.modes, self.join, parts, mirrored
         )
         step = max(1, _BATCH // (6 * count))
         for start in range(0, len(points), step):
             some = points[start : start + step]
-            positions = evaluator.positions(some).reshape(-1, count, 3)
-            normals = evaluator.normals(some + base).reshape(-1, count, 3)
+            positions = evaluator.positions(some)
+            normals = evaluator.normals(some + base)
             for position, normal in zip(positions, normals, strict=True):
                 yield position.astype(np.float32), self._turned(normal)
+
+    def _moved(self, own: Displacement) -> Iterator[Displacement]:
+        """What each expression adds to the curves at full weight."""
+        face = self.face
+        rest = face.curves.points + person(face.weights, face.curves.shape)
+        kept = {n: w for n, w in face.weights.items() if CONTROLS[n].kind == "expression"}
+        before = expressed(rest, kept, face.a, face.modes)
+        for name in self.names:
+            company = {**kept, **COMPANY.get(name, {})}
+            alone = expressed(rest, company, face.a, face.modes) if company != kept else before
+            after = expressed(rest, {**company, name: 1.0}, face.a, face.modes)
+            yield Displacement(after.smooth - alone.smooth, after.parting - alone.parting)
 
     def _turned(self, normals: NDArray[np.floating]) -> Float32:
         """Normals less those of the face; 0 where the surface is pinched and has none."""
@@ -130,41 +141,9 @@ def _layers(smooth: Float64, parting: Float64, parts: bool) -> Float64:
     return np.concatenate([smooth, parting]) if parts else smooth + parting
 
 
-def _has_lids(face: Face) -> bool:
-    try:
-        slits(face.curves.shape[0])
-    except InputError:
-        return False
-    return True
-
-
 def _unknown(name: object, every: Sequence[str]) -> InputError:
     if name in ARKIT:
         return InputError(f"faces cannot do {name!r} yet; leave it out")
     near = difflib.get_close_matches(str(name), every, n=3, cutoff=0.5)
     hint = f"did you mean {', '.join(near)}?" if near else "see pdeface.controls.ARKIT"
     return InputError(f"no expression is called {name!r}; {hint}")
-
-
-@lru_cache(maxsize=4)
-def _evaluator(
-    shape: tuple[int, int],
-    mesh: tuple[int, int],
-    a: float,
-    modes: int,
-    join: Join,
-    parts: bool,
-    mirrored: bool,
-) -> GridEvaluator:
-    grid = UVMesh(*mesh)
-    parting = slits(shape[0]) if parts else None
-    return GridEvaluator(
-        shape,
-        grid.u,
-        grid.v,
-        a=a,
-        modes=modes,
-        join=join,
-        parting=parting,
-        mirrored=mirrored,
-    )

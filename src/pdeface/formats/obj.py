@@ -23,8 +23,6 @@ def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True
         InputError: a place that cannot be written.
     """
     cells = surface.quads if quads else surface.triangles
-    # The three lists run in step, so that a corner is the same number three times, from 1.
-    corner = " %d/%d/%d" * cells.shape[1]
     material = _material(write_texture_beside(path, face))
     library = write_beside(path, ".mtl", material.encode())
     text = [
@@ -33,9 +31,16 @@ def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True
         _lines("vt %.9g %.9g\n", surface.texcoords_from_below),
         _lines("vn %.9g %.9g %.9g\n", surface.normals),
         "usemtl face\ns 1\n",
-        _lines(f"f{corner}\n", np.repeat(cells + 1, 3, axis=1)),
+        _faces(cells),
+        _faces(surface.fans) if quads else "",
     ]
     atomic_write(path, "".join(text).encode())
+
+
+def _faces(cells: NDArray[np.int32]) -> str:
+    # The three lists run in step, so that a corner is the same number three times, from 1.
+    corner = " %d/%d/%d" * cells.shape[1]
+    return _lines(f"f{corner}\n", np.repeat(cells + 1, 3, axis=1))
 
 
 def _lines(pattern: str, values: NDArray[np.generic]) -> str:

@@ -7,6 +7,7 @@ texture and takes longer to import than this takes to run.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
@@ -30,12 +31,17 @@ def write_ply(face: Face, surface: Sample, path: PathLike, *, quads: bool = Fals
     vertices = np.concatenate(
         [surface.vertices, surface.normals, surface.texcoords_from_below], axis=1
     )
-    cells = surface.quads if quads else surface.triangles
+    cells = [surface.quads, surface.fans] if quads else [surface.triangles]
+    header = _header(len(vertices), sum(map(len, cells)), write_texture_beside(path, face))
+    body = b"".join([vertices.astype("<f4").tobytes(), *map(_faces, cells)])
+    atomic_write(path, header + body)
+
+
+def _faces(cells: NDArray[np.int32]) -> bytes:
     corners = cells.shape[1]
     faces = np.empty(len(cells), [("count", "u1"), ("indices", "<i4", corners)])
     faces["count"], faces["indices"] = corners, cells
-    header = _header(len(vertices), len(faces), write_texture_beside(path, face))
-    atomic_write(path, header + vertices.astype("<f4").tobytes() + faces.tobytes())
+    return faces.tobytes()
 
 
 def _header(vertices: int, faces: int, texture: str | None) -> bytes:

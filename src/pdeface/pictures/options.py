@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 
 from pdeface.errors import InputError
-from pdeface.face import Face
+from pdeface.face import Face, Openings
 from pdeface.pde import Join
-from pdeface.uvmesh import FaceMesh
+from pdeface.uvmesh import FaceMesh, UVMesh
 
 __all__ = ["FINE_MESH", "PAPER_MESH", "Options", "check_size"]
 
@@ -34,6 +34,7 @@ class Options:
         light: name of a rig in :data:`pdeface.pictures.light.RIGS`; None for the style's own.
         loops: show the closed curves, back halves included (style ``curves``).
         height: height of the picture in pixels, by which lines get their width.
+        openings: ``"cut"``, or ``"none"`` for the paper's closed face.
     """
 
     mesh: tuple[int, int] | None = None
@@ -41,11 +42,17 @@ class Options:
     light: str | None = None
     loops: bool = False
     height: int = 1000
+    openings: Openings = "cut"
 
     def sample(self, face: Face, otherwise: tuple[int, int] = FINE_MESH) -> FaceMesh:
         """The face on the uv mesh asked for."""
         rows, columns = self.mesh or otherwise
-        return face.mesh(rows, columns, join=self.join)
+        return face.mesh(rows, columns, join=self.join, openings=self.openings)
+
+    def uv_mesh(self, face: Face, otherwise: tuple[int, int] = FINE_MESH) -> UVMesh:
+        """The uv mesh of :meth:`sample`."""
+        rows, columns = self.mesh or otherwise
+        return face.uv_mesh(rows, columns, join=self.join, openings=self.openings)
 
 
 def check_size(size: tuple[int, int]) -> tuple[int, int]:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.face import Face
+from pdeface.face import Face, Openings
 from pdeface.files import PathLike
 from pdeface.pde import Join
 from pdeface.pictures.camera import Camera, View, frame
@@ -39,6 +39,7 @@ def render(
     light: str | None = None,
     loops: bool = False,
     colour_bar: bool = True,
+    openings: Openings = "cut",
 ) -> Pixels:
     """Draw a face, off screen, and write the picture if a path is given.
 
@@ -64,6 +65,8 @@ def render(
         light: ``"studio"``, ``"soft"``, or ``"raking"`` (from the sides, to judge how fair a
             surface is); None for the style's own.
         loops: style ``"curves"``: the closed curves, with the back halves.
+        openings: ``"cut"``, eyes and mouth where the face has lids and lips, or ``"none"`` for the
+            paper's, closed everywhere.
         colour_bar: style ``"curvature"``: say below the face what the colours mean.
 
     Returns:
@@ -82,7 +85,7 @@ def render(
     if path is not None:
         check_suffix(path, transparent)
     name, draw = style_named(style, face)
-    options = Options(mesh=mesh, join=join, light=light, loops=loops)
+    options = Options(mesh=mesh, join=join, light=light, loops=loops, openings=openings)
     legend = name == "curvature" and colour_bar and not transparent
     room = (size[0], max(1, round(size[1] * (1.0 - BAND)))) if legend else size
     camera = face_camera(face, view, room, loops=loops and name == "curves")

@@ -17,7 +17,16 @@ from numpy.typing import NDArray
 
 from pdeface.curves import BoundaryCurves, mirror_points
 from pdeface.errors import InputError
-from pdeface.template.layout import COLUMNS, LEVELS, PAPER_ROWS, REGIONS, ROWS, Region
+from pdeface.openings import Opening
+from pdeface.template.layout import (
+    COLUMNS,
+    LEVELS,
+    OPENING_ROWS,
+    PAPER_ROWS,
+    REGIONS,
+    ROWS,
+    Region,
+)
 
 __all__ = [
     "COLUMNS",
@@ -31,6 +40,7 @@ __all__ = [
     "column_v",
     "feature_points",
     "neutral_curves",
+    "openings",
     "row",
     "row_u",
 ]
@@ -95,6 +105,19 @@ def feature_points() -> dict[str, tuple[float, float]]:
     """(u, v) of the 25 feature points of Fig. 5, by name, in the order of the paper."""
     uv = _data()["features"].tolist()
     return {name: (u, v) for name, (u, v) in zip(FEATURE_POINTS, uv, strict=True)}
+
+
+@lru_cache(maxsize=1)
+def openings() -> tuple[Opening, ...]:
+    """The openings of the face: the right eye, the left eye and the mouth, in this order.
+
+    The eyes are open at rest, between their lid margins; the lips touch along one line.
+    """
+    found = []
+    for (name, rows), lines in zip(OPENING_ROWS.items(), _data()["openings"], strict=True):
+        v, upper, lower = (tuple(line) for line in lines.tolist())
+        found.append(Opening(name, v, upper, lower, (row_u(rows[0]), row_u(rows[1]))))
+    return tuple(found)
 
 
 def row_u(name: str) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import NamedTuple
 
-__all__ = ["COLUMNS", "LEVELS", "PAPER_ROWS", "REGIONS", "ROWS", "Region"]
+__all__ = ["COLUMNS", "LEVELS", "OPENING_ROWS", "PAPER_ROWS", "REGIONS", "ROWS", "Region"]
 
 LEVELS = MappingProxyType({"28x46": (28, 46), "55x92": (55, 92), "109x184": (109, 184)})
 """Levels of detail that the package ships: (curves, points on each)."""
@@ -51,6 +51,15 @@ ROWS = MappingProxyType(
     }
 )
 """Row of each named feature, in curves of the paper: ``u = row / 27``."""
+
+OPENING_ROWS = MappingProxyType(
+    {
+        "right_eye": ("upper_lid_margin", "lower_lid_margin"),
+        "left_eye": ("upper_lid_margin", "lower_lid_margin"),
+        "mouth": ("mouth_seam_upper", "mouth_seam_lower"),
+    }
+)
+"""The rows above and below each opening of the face."""
 
 
 COLUMNS = (

@@ -78,7 +78,7 @@ def _opening(
     upper: str, lower: str, face: Parameterisation, line: FloatArray, reach: float
 ) -> Opening:
     start, end = sorted(face.uv_of(line[[0, -1]])[:, 1])
-    return Opening(upper, lower, float(start) - 0.02, float(end) + 0.02, reach)
+    return Opening(upper, lower, float(start), float(end), reach)
 
 
 def build(folder: Path, output: Path) -> None:

@@ -101,6 +101,7 @@ def _solids(surface: PDESurface, camera: Camera) -> list[Solid]:
         surface.normal(u, v).reshape(-1, 3),
         GRID.texcoords,
         GRID.quads,
+        GRID.fans,
         GRID.triangles,
         (GRID.rows, GRID.columns),
     )

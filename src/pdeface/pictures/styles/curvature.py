@@ -44,24 +44,22 @@ STOPS: Final = np.array(
 def curvature(face: Face, camera: Camera, options: Options) -> list[Solid]:
     """The surface coloured by its mean curvature, positive where it bulges outwards."""
     mesh = options.sample(face, otherwise=FINE)
-    values = _mean(face, mesh.grid, options)
+    values = _mean(face, options.uv_mesh(face, otherwise=FINE), options)
     color = decode_srgb(diverging(values / curvature_limit(face, options)))
     return skin(mesh, color, camera, rig_named(options.light or "soft"))
 
 
 def curvature_limit(face: Face, options: Options) -> float:
     """The value, 1/m, at which the colours end: round, and nine tenths of the face keep to it."""
-    limit = float(np.quantile(np.abs(_mean(face, COARSE, options)), 0.9))
+    limit = float(np.quantile(np.abs(_mean(face, UVMesh(*COARSE), options)), 0.9))
     if limit <= 0.0:
         return 1.0
     unit = 10.0 ** np.floor(np.log10(limit))
     return float(unit * np.ceil(limit / unit))
 
 
-def _mean(face: Face, grid: tuple[int, int], options: Options) -> FloatArray:
-    domain = UVMesh(*grid)
-    u, v = np.meshgrid(domain.u, domain.v, indexing="ij")
-    mean = face.surface(options.join).curvature(u, v).mean.ravel()
+def _mean(face: Face, domain: UVMesh, options: Options) -> FloatArray:
+    mean = face.surface(options.join).curvature(*domain.nodes.T).mean
     return np.nan_to_num(mean, nan=0.0, posinf=0.0, neginf=0.0)
 
 

@@ -44,7 +44,7 @@ def _front(face: Face, camera: Camera, options: Options) -> list[Solid]:
     ground = skin(options.sample(face), PORCELAIN, camera, rig_named(options.light or "gallery"))
     line, dot = _radii(face, camera)
     count = face.curves.shape[0]
-    paths = face.mesh(count, SAMPLES).vertices.reshape(count, -1, 3)
+    paths = face.mesh(count, SAMPLES, openings="none").vertices.reshape(count, -1, 3)
     lines = merge([tube(path, line, CURVE) for path in paths])
     return [*ground, lines, balls(face.moved_curves.half, dot, POINT, camera)]
 

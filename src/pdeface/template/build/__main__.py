@@ -18,6 +18,7 @@ from pdeface.template.build.cutting import MIRROR_Z, cut_face
 from pdeface.template.build.features import measure_columns, measure_features
 from pdeface.template.build.head import load_head
 from pdeface.template.build.measure import measure
+from pdeface.template.build.openings import measure_openings
 from pdeface.template.build.parameterisation import Parameterisation
 from pdeface.template.layout import LEVELS
 
@@ -46,6 +47,7 @@ def build(folder: Path, output: Path) -> None:
         "mirror_z": np.float64(MIRROR_Z),
         "features": measure_features(face),
         "columns": measure_columns(face, head),
+        "openings": measure_openings(face, closed),
     }
     for name, shape in LEVELS.items():
         # What is measured is what ships: single precision, and the reflection made exact.

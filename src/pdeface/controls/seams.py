@@ -1,0 +1,125 @@
+"""Where lids and lips meet: how far apart they are, and displacements that bring them together.
+
+Expressions are added, and what lids and lips do when several are added is nobody's measurement. The
+gap between the two sides of an opening is linear in the data points, and so is the correction that
+gives it the size it should have.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.controls.measured import slits
+from pdeface.curves import curve_parameters, mirror_points
+from pdeface.openings import Opening
+from pdeface.pde.scattered import point_weights
+from pdeface.template import openings
+from pdeface.template.layout import PAPER_ROWS
+
+__all__ = ["Seam", "seam"]
+
+FloatArray = NDArray[np.float64]
+
+REACH = {"right_eye": 4.0, "left_eye": 4.0, "mouth": 5.0}
+"""Rows of the paper over which a correction of a side fades out."""
+
+DAMPING = 0.3
+"""Of the data points that are corrected: a correction does not ring."""
+
+BESIDE = 1.0
+"""How far beyond the corners of an opening data points are corrected, in points."""
+
+
+class Seam:
+    """The two sides of an opening, on faces of one size.
+
+    Args:
+        opening: the opening.
+        size: (K, M) of the curves.
+        a, modes: as for :class:`pdeface.pde.PDESurface`.
+    """
+
+    def __init__(self, opening: Opening, size: tuple[int, int], a: float, modes: int) -> None:
+        v = np.array(opening.v)
+        options = {"a": a, "modes": modes}
+        parting = slits(size[0])
+        lines = np.array(opening.upper), np.array(opening.lower)
+        on_curves = [np.minimum(lines[0], opening.rows[0]), np.maximum(lines[1], opening.rows[1])]
+        upper, lower = (
+            (
+                point_weights(size, line, v, **options),  # type: ignore[arg-type]
+                point_weights(size, curve, v, continuity=parting, **options),  # type: ignore[arg-type]
+            )
+            for line, curve in zip(lines, on_curves, strict=True)
+        )
+        self._weights = upper, lower
+        self._half = size[0], size[1] // 2
+        row = np.linspace(0.0, PAPER_ROWS - 1.0, size[0])
+        above, below = (u * (PAPER_ROWS - 1.0) for u in opening.rows)
+        reach = REACH[opening.name]
+        self._fades = [
+            np.where(away >= -1e-9, (1.0 - (away / reach).clip(0.0, 1.0) ** 2) ** 3, 0.0)
+            for away in (above - row, row - below)
+        ]
+        at = curve_parameters(size[1])[: size[1] // 2]
+        step = at[1] - at[0]
+        near = (at > v[0] - BESIDE * step) & (at < v[-1] + BESIDE * step)
+        self._solve = [
+            _solution(weights[1].reshape(len(v), *size), fade, v, near)
+            for weights, fade in zip((upper, lower), self._fades, strict=True)
+        ]
+
+    def lines(self, smooth: FloatArray, parting: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(n, 3) places on the upper and the lower side, of points and parting displacements."""
+        flat = smooth.reshape(-1, 3), parting.reshape(-1, 3)
+        upper, lower = (of[0] @ flat[0] + of[1] @ flat[1] for of in self._weights)
+        return upper, lower
+
+    def gap(self, smooth: FloatArray, parting: FloatArray) -> FloatArray:
+        """(n, 3) the upper less the lower side."""
+        upper, lower = self.lines(smooth, parting)
+        return np.asarray(upper - lower)
+
+    def moved(self, change: FloatArray, share: float) -> FloatArray:
+        """(K, M, 3) parting displacement that changes the gap by (n, 3).
+
+        Args:
+            change: what the upper side shall move relative to the lower.
+            share: of the upper side, 0 to 1; the lower moves the other way.
+        """
+        half = np.zeros((*self._half, 3))
+        shares = share, share - 1.0
+        for part, fade, solve in zip(shares, self._fades, self._solve, strict=True):
+            if part:
+                half += fade[:, None, None] * np.einsum("cvn,nc->vc", solve, part * change)
+        return mirror_points(half)
+
+
+def _solution(
+    weights: FloatArray, fade: FloatArray, v: FloatArray, near: NDArray[np.bool_]
+) -> FloatArray:
+    """(3, M/2, n) weights of the change wanted along a line, in x, y and z, in the data points of
+    half a curve whose fading displacement makes it."""
+    line = np.einsum("nkm,k->nm", weights, fade)
+    half = weights.shape[2] // 2
+    front, back = line[:, :half] * near, line[:, half:][:, ::-1] * near
+    # Columns crowd at the corners, where next to nothing is left to change.
+    importance = np.sqrt(np.gradient(v) / np.gradient(v).mean())[:, None]
+    even, odd = (_least_squares(front + sign * back, importance) for sign in (1.0, -1.0))
+    # Of the mirrored back half, x and y go with those of the front and z goes against it.
+    return np.stack([even, even, odd])
+
+
+def _least_squares(system: FloatArray, importance: FloatArray) -> FloatArray:
+    damped = np.concatenate([importance * system, DAMPING * np.eye(system.shape[1])])
+    return np.asarray(np.linalg.pinv(damped)[:, : len(system)] * importance.T)
+
+
+@lru_cache(maxsize=16)
+def seam(name: str, size: tuple[int, int], a: float = 1.0, modes: int = 6) -> Seam:
+    """The seam of a named opening, kept for the next face."""
+    (opening,) = (opening for opening in openings() if opening.name == name)
+    return Seam(opening, size, a, modes)

@@ -1,0 +1,144 @@
+"""The face on a uv mesh: the grid of its rows and columns, and the nodes that openings move.
+
+Rows and columns separate, so that the grid costs two small products; the few nodes on the edges of
+openings have parameters of their own and a row of weights each.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.controls import slits
+from pdeface.pde import GridEvaluator, Join
+from pdeface.pde.differential import unit_normal
+from pdeface.pde.scattered import point_weights
+from pdeface.uvmesh import UVMesh
+
+__all__ = ["Sampler", "sampler"]
+
+Array = NDArray[np.floating]
+FloatArray = NDArray[np.float64]
+
+
+class Sampler:
+    """Positions and normals of any face of one size on one uv mesh.
+
+    Args:
+        shape: (K, M) of the curves.
+        mesh: the uv mesh.
+        a, modes, join: as for :class:`pdeface.pde.PDESurface`.
+        parts: whether points come with displacements that part the face at lids and lips:
+            (..., 2 K, M, 3), the K curves, and after them their parting displacements.
+        mirrored: whether every curve is its own reflection.
+    """
+
+    def __init__(
+        self,
+        shape: tuple[int, int],
+        mesh: UVMesh,
+        a: float,
+        modes: int,
+        join: Join,
+        parts: bool,
+        mirrored: bool = False,
+    ) -> None:
+        parting = slits(shape[0]) if parts else None
+        self._grid = GridEvaluator(
+            shape,
+            mesh.u,
+            mesh.v,
+            a=a,
+            modes=modes,
+            join=join,
+            parting=parting,
+            mirrored=mirrored,
+        )
+        self._moved, u, v, outside = _moved_nodes(mesh)
+        self._weights = np.zeros((3, 0, 0))
+        if len(self._moved):
+            layers = [(u, {})] if parting is None else [(u, {}), (outside, parting)]
+            self._weights = np.array(
+                [
+                    np.concatenate(
+                        [
+                            # Beyond its curve the displacement of a side goes on as it is there.
+                            np.where((own == u)[:, None] | (du == 0), 1.0, 0.0)
+                            * point_weights(
+                                shape, own, v, du, dv,
+                                a=a, modes=modes, join=join, continuity=continuity,
+                            )
+                            for own, continuity in layers
+                        ],
+                        axis=1,
+                    )
+                    for du, dv in ((0, 0), (1, 0), (0, 1))
+                ]
+            )  # fmt: skip
+
+    def positions(self, points: Any) -> FloatArray:
+        """(..., V, 3) positions of the nodes of faces with (..., K or 2 K, M, 3) data points."""
+        positions = _listed(self._grid.positions(points))
+        if len(self._moved):
+            positions[..., self._moved, :] = self._at(points, 0)
+        return positions
+
+    def normals(self, points: Any) -> FloatArray:
+        """(..., V, 3) unit outward normals; zero where the surface is degenerate."""
+        normals = _listed(self._grid.normals(points))
+        if len(self._moved):
+            normals[..., self._moved, :] = unit_normal(self._at(points, 1), self._at(points, 2))
+        return normals
+
+    def _at(self, points: Any, which: int) -> FloatArray:
+        points = np.asarray(points)
+        flat = points.reshape(*points.shape[:-3], -1, 3)
+        return np.asarray(self._weights[which] @ flat)
+
+
+@lru_cache(maxsize=16)
+def sampler(
+    shape: tuple[int, int],
+    mesh: UVMesh,
+    a: float,
+    modes: int,
+    join: Join,
+    parts: bool,
+    mirrored: bool = False,
+) -> Sampler:
+    """The :class:`Sampler` of these, kept for the next face."""
+    return Sampler(shape, mesh, a, modes, join, parts, mirrored)
+
+
+def _listed(grid: Array) -> FloatArray:
+    """(..., V, 3) contiguous vertices of (..., U, V, 3)."""
+    return np.ascontiguousarray(grid.reshape(*grid.shape[:-3], -1, 3), dtype=np.float64)
+
+
+def _moved_nodes(mesh: UVMesh) -> tuple[NDArray[np.intp], FloatArray, FloatArray, FloatArray]:
+    """Nodes that the grid cannot serve, their u and v, and u of the curve of their side.
+
+    These are the nodes on the edges of openings and, beside slanting edges, those between such an
+    edge and the curve to which it belongs: there the grid would mix the two sides.
+    """
+    parameters = mesh.nodes.reshape(mesh.rows, mesh.columns, 2)
+    index, outside = [], []
+    for cut in mesh.cuts:
+        above, below = cut.opening.rows
+        for column, upper, lower in zip(cut.columns, cut.upper, cut.lower, strict=True):
+            u = parameters[:, column, 0]
+            row = np.arange(mesh.rows)
+            on_upper = (row <= upper) & ((u > above) | (row == upper))
+            on_lower = (row >= lower) & ((u < below) | (row == lower)) & ~on_upper
+            for side, limit in ((on_upper, np.minimum(u, above)), (on_lower, np.maximum(u, below))):
+                chosen = np.flatnonzero(side)
+                index.append(chosen * mesh.columns + column)
+                outside.append(limit[chosen])
+    if not index:
+        return np.zeros(0, np.intp), np.zeros(0), np.zeros(0), np.zeros(0)
+    node = np.concatenate(index).astype(np.intp)
+    u, v = mesh.nodes[node].T
+    return node, u, v, np.concatenate(outside)
