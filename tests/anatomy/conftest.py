@@ -26,7 +26,7 @@ def skin(face: pdeface.Face, openings: tuple[str, ...]) -> np.ndarray:
     outside = np.ones(u.shape, dtype=bool)
     for name in openings:
         rows, columns = outline_uv(name)
-        outside &= (u < rows[0]) | (u > rows[1]) | (v < columns[0]) | (v > columns[-1])
+        outside &= (u < rows[0, 0]) | (u > rows[1, 0]) | (v < columns[0]) | (v > columns[-1])
     return face.mesh(433, 481).vertices[outside.ravel()]
 
 

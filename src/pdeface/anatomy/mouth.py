@@ -26,27 +26,27 @@ class _Roll(NamedTuple):
 
 
 class _Ring(NamedTuple):
-    """A curve of the cavity on the measured head: an ellipse bent about the teeth, metres.
+    """A curve of the cavity on the measured head: two half ellipses bent about the teeth, metres.
 
     ``follow`` is the share of the motion of the margin; the rest is the jaw's, below.
     """
 
     depth: float
     half_width: float
-    half_height: float
-    rise: float
+    above: float
+    below: float
     bend: float
     follow: float
 
 
 LIPS = (_Roll(1.2e-3, 0.35), _Roll(3.0e-3, 0.0), _Roll(4.6e-3, 0.5))
 RINGS = (
-    _Ring(0.0045, 0.0300, 0.0130, 0.0, 0.020, 0.45),
-    _Ring(0.0180, 0.0345, 0.0190, 0.001, 0.018, 0.12),
-    _Ring(0.0380, 0.0350, 0.0210, 0.002, 0.010, 0.0),
-    _Ring(0.0600, 0.0310, 0.0200, 0.001, 0.004, 0.0),
-    _Ring(0.0800, 0.0200, 0.0150, -0.002, 0.0, 0.0),
-    _Ring(0.0900, 0.0004, 0.0004, -0.004, 0.0, 0.0),
+    _Ring(0.0050, 0.0300, 0.0130, 0.0090, 0.020, 0.45),
+    _Ring(0.0190, 0.0345, 0.0190, 0.0170, 0.018, 0.12),
+    _Ring(0.0380, 0.0350, 0.0225, 0.0190, 0.010, 0.0),
+    _Ring(0.0600, 0.0310, 0.0210, 0.0190, 0.004, 0.0),
+    _Ring(0.0800, 0.0200, 0.0130, 0.0170, 0.0, 0.0),
+    _Ring(0.0900, 1e-6, 1e-6, 1e-6, 0.0, 0.0),
 )
 
 
@@ -96,5 +96,6 @@ MIDDLE = 0.006
 
 
 def _ellipse(ring: _Ring, angle: FloatArray) -> FloatArray:
-    x, y = ring.half_width * np.cos(angle), ring.half_height * np.sin(angle) + ring.rise
+    x, height = ring.half_width * np.cos(angle), np.sin(angle)
+    y = np.where(height > 0.0, ring.above, ring.below) * height
     return np.stack([x, y, -ring.depth - ring.bend * np.cos(angle) ** 2], axis=1)

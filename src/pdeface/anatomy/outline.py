@@ -39,14 +39,14 @@ def outline_uv(name: str, samples: int = SAMPLES) -> tuple[FloatArray, FloatArra
     """Where the margins of an opening lie on the face.
 
     Returns:
-        (2,) values of u, the upper margin's and the lower's; (samples,) values of v from the
-        subject's right to left, ``v_mid - h cos(pi i / (samples - 1))``, dense at the corners.
+        (2, samples) values of u, the upper margin's and the lower's; (samples,) values of v from
+        the subject's right to left, ``v_mid - h cos(pi i / (samples - 1))``, dense at the corners.
     """
     upper, lower, right, left = OPENINGS[name]
     start, end = column_v(right), column_v(left)
     cosine = np.cos(np.pi * np.arange(samples) / (samples - 1))
     v = 0.5 * (start + end) - 0.5 * (end - start) * cosine
-    return np.array([row_u(upper), row_u(lower)]), v
+    return np.stack([np.full(samples, row_u(row)) for row in (upper, lower)]), v
 
 
 class Margins(NamedTuple):
@@ -93,7 +93,7 @@ class Outline:
         margins = {}
         for name in OPENINGS:
             u, v = outline_uv(name)
-            margins[name] = Margins(*surface(u[:, None], v[None, :]))
+            margins[name] = Margins(*surface(u, v))
         return cls(**margins)
 
 

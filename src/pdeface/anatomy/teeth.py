@@ -22,6 +22,10 @@ HEIGHT = 0.0165
 LIP = 0.0030
 """Thickness of the lips where they lie on the teeth, metres on the measured head."""
 
+SHOWN = 0.0015
+"""How much lower both arches stand than on the measured head, whose upper teeth end so high that
+its lips would hide them in a smile, metres."""
+
 SQUARENESS = 0.62
 """Exponent of the superellipse of a cross-section: 1 is an ellipse, 0 a rectangle."""
 
@@ -76,7 +80,7 @@ def _tube(teeth: Arch, name: str, shape: tuple[int, int]) -> FloatArray:
     height = 0.5 + 0.5 * up * along
     thickness = 0.5 * (outer - inner)[:, None] * (0.75 + 0.25 * np.sqrt(height))
     radius = 0.5 * (outer + inner)[:, None] + thickness * across
-    y = edge[:, None] + up * HEIGHT * height
+    y = edge[:, None] - SHOWN + up * HEIGHT * height
     x, z = _plan(angle[:, None], radius, teeth.axis_z)
     sections = np.stack([x, y, z], axis=2)
     ends = [

@@ -25,10 +25,10 @@ BROWN: Colour = (104, 68, 40)
 IRIS_COLOUR: Colour = (96, 112, 112)
 """sRGB of the iris unless another is asked for: a grey blue."""
 
-IRIS, PUPIL = np.radians(21.5), np.radians(7.6)
+IRIS, PUPIL = np.radians(21.5), np.radians(6.8)
 """Angles from the middle of the pupil to the limbus and to the edge of the pupil."""
 
-LIP, DEEP, THROAT = (158, 90, 84), (112, 44, 44), (32, 8, 10)
+LIP, DEEP, THROAT = (170, 100, 92), (104, 40, 40), (32, 8, 10)
 TOOTH, GUM = (236, 228, 208), (196, 118, 114)
 TONGUE = (192, 104, 104)
 
@@ -63,7 +63,7 @@ def eye(colour: Colour = IRIS_COLOUR, size: int = 512) -> Pixels:
 def mouth(size: int = 128) -> Pixels:
     """(size, 8, 3) uint8 texture of the cavity: lips at its margin, dark red within."""
     u, _ = _places(size, 8)
-    colours = _mix(np.array(LIP, float), np.array(DEEP, float), _step(0.10, 0.42, u))
+    colours = _mix(np.array(LIP, float), np.array(DEEP, float), _step(0.02, 0.30, u))
     return _pixels(_mix(colours, np.array(THROAT, float), _step(0.45, 0.85, u)))
 
 
@@ -83,18 +83,20 @@ def teeth(name: str, size: int = 512) -> Pixels:
     across = np.clip((2.0 * angle - start - end) / (end - start), -1.0, 1.0)
     height = 0.5 + 0.5 * np.sin(v) * (1.0 if name == "upper" else -1.0)
     gum_line = 0.56 - 0.09 * across**4
-    shade = 1.0 - 0.42 * np.abs(across) ** 14 - 0.08 * across**2
+    shade = 1.0 - 0.34 * np.abs(across) ** 18 - 0.08 * across**2
     tooth = np.array(TOOTH, float) * (shade * (1.0 - 0.10 * height))[..., None]
     gum = np.array(GUM, float) * (1.0 - 0.10 * across**2)[..., None]
-    return _pixels(_mix(tooth, gum, _step(-0.03, 0.03, height - gum_line)))
+    # No renderer of such a mesh shades a mouth from within: the shadow of the cheeks is painted.
+    dusk = 1.0 - 0.62 * _step(0.55, 1.5, np.abs(angle)) * np.ones_like(height)
+    return _pixels(_mix(tooth, gum, _step(-0.03, 0.03, height - gum_line)) * dusk[..., None])
 
 
 def tongue(size: int = 128) -> Pixels:
     """(size, size, 3) uint8 texture of the tongue, darker at its root and in its furrow."""
     u, v = _places(size, size)
     top = np.clip(np.sin(v), 0.0, 1.0)
-    shade = 0.62 + 0.38 * _step(0.1, 0.75, u) - 0.14 * top**40
-    grain = 1.0 + 0.05 * np.sin(61.0 * u + 3.0 * np.sin(9.0 * v)) * np.sin(23.0 * v)
+    shade = 0.30 + 0.70 * _step(0.1, 0.85, u) - 0.12 * top**40
+    grain = 1.0 + 0.02 * np.sin(61.0 * u + 3.0 * np.sin(9.0 * v)) * np.sin(23.0 * v)
     return _pixels(np.array(TONGUE, float) * (shade * grain)[..., None])
 
 
