@@ -1,0 +1,155 @@
+"""Outlines of the openings of a face, and closed loops through them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.errors import InputError
+from pdeface.template import column_v, row_u
+
+__all__ = ["OPENINGS", "SAMPLES", "Loop", "Margins", "Outline", "outline_uv"]
+
+FloatArray = NDArray[np.float64]
+
+SAMPLES = 33
+"""Samples of each margin."""
+
+OPENINGS = MappingProxyType(
+    {
+        "right_eye": ("upper_lid_margin", "lower_lid_margin", "right_eye_outer", "right_eye_inner"),
+        "left_eye": ("upper_lid_margin", "lower_lid_margin", "left_eye_inner", "left_eye_outer"),
+        "mouth": (
+            "mouth_seam_upper",
+            "mouth_seam_lower",
+            "right_mouth_corner",
+            "left_mouth_corner",
+        ),
+    }
+)
+"""Rows of the upper and lower margin and columns of the right and left corner, by opening."""
+
+
+def outline_uv(name: str, samples: int = SAMPLES) -> tuple[FloatArray, FloatArray]:
+    """Where the margins of an opening lie on the face.
+
+    Returns:
+        (2, samples) values of u, the upper margin's and the lower's; (samples,) values of v from
+        the subject's right to left, ``v_mid - h cos(pi i / (samples - 1))``, dense at the corners.
+    """
+    upper, lower, right, left = OPENINGS[name]
+    start, end = column_v(right), column_v(left)
+    cosine = np.cos(np.pi * np.arange(samples) / (samples - 1))
+    v = 0.5 * (start + end) - 0.5 * (end - start) * cosine
+    return np.stack([np.full(samples, row_u(row)) for row in (upper, lower)]), v
+
+
+class Margins(NamedTuple):
+    """The two sides of an opening, or displacements of them, metres.
+
+    Attributes:
+        upper, lower: (n, 3) each, from the subject's right corner to the left.
+    """
+
+    upper: FloatArray
+    lower: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """The margins of the three openings, or displacements of them.
+
+    Raises:
+        InputError: arrays of other shapes, or numbers that are not finite.
+    """
+
+    right_eye: Margins
+    left_eye: Margins
+    mouth: Margins
+
+    def __post_init__(self) -> None:
+        for name in OPENINGS:
+            margins = np.asarray(getattr(self, name), dtype=np.float64)
+            if margins.ndim != 3 or len(margins) != 2 or margins.shape[1:] != (SAMPLES, 3):
+                raise InputError(
+                    f"the outline of {name} needs two margins of ({SAMPLES}, 3) points, got "
+                    f"{margins.shape}; sample the face at outline_uv({name!r})"
+                )
+            if not np.isfinite(margins).all():
+                raise InputError(
+                    f"the outline of {name} must be finite numbers, got NaN or infinity; "
+                    "sample a face that is finite"
+                )
+            object.__setattr__(self, name, Margins(*margins))
+
+    @classmethod
+    def sampled(cls, surface: Callable[[Any, Any], FloatArray]) -> Outline:
+        """The outline of a face's surface S(u, v), or of a displacement of it."""
+        margins = {}
+        for name in OPENINGS:
+            u, v = outline_uv(name)
+            margins[name] = Margins(*surface(u, v))
+        return cls(**margins)
+
+
+class Loop:
+    """The closed loop round an opening: M points, equal steps on the upper side and on the lower.
+
+    It starts half-way up the side of the right corner, runs along the upper margin to the left
+    corner and along the lower one back. Points are linear in the margins; the weights are those
+    of the margins at rest, so that a displacement of the margins displaces the loop.
+
+    Args:
+        rest: the margins at rest.
+        count: M, an even number.
+    """
+
+    def __init__(self, rest: Margins, count: int) -> None:
+        self.count = count
+        self._weights = [_resampling(side, other, count // 2) for side, other in _sides(rest)]
+        self.across = (np.arange(count // 2) + 0.5) / (count // 2)
+        """(M / 2,) how far across each point of the upper half lies, 0 to 1."""
+
+    def __call__(self, margins: Margins) -> FloatArray:
+        """(M, 3) points of the loop through these margins."""
+        upper, lower = (
+            weights @ _chain(side, other)
+            for weights, (side, other) in zip(self._weights, _sides(margins), strict=True)
+        )
+        return np.concatenate([upper, lower[::-1]])
+
+    def taper(self, reach: float) -> FloatArray:
+        """(M, 1) 0 at the corners, rising smoothly to 1 over this fraction of the width."""
+        near = (np.minimum(self.across, 1.0 - self.across) / reach).clip(0.0, 1.0)
+        rise = near * near * (3.0 - 2.0 * near)
+        return np.concatenate([rise, rise[::-1]])[:, None]
+
+
+def middle(loop: FloatArray) -> FloatArray:
+    """(M, 3) points half-way between each point of a loop and the one across the opening."""
+    return 0.5 * (loop + loop[::-1])
+
+
+def _sides(margins: Margins) -> tuple[tuple[FloatArray, FloatArray], ...]:
+    return (margins.upper, margins.lower), (margins.lower, margins.upper)
+
+
+def _chain(side: FloatArray, other: FloatArray) -> FloatArray:
+    """A margin with half of the side of each corner: n + 2 points."""
+    ends = 0.5 * (side[[0, -1]] + other[[0, -1]])
+    return np.concatenate([ends[:1], side, ends[1:]])
+
+
+def _resampling(side: FloatArray, other: FloatArray, count: int) -> FloatArray:
+    """(count, n + 2) weights of equal steps along the chain of a margin."""
+    chain = _chain(side, other)
+    steps = np.linalg.norm(np.diff(chain, axis=0), axis=1)
+    length = np.concatenate([[0.0], np.cumsum(steps)])
+    wanted = (np.arange(count) + 0.5) / count * length[-1]
+    unit = np.eye(len(chain))
+    return np.stack([np.interp(wanted, length, row) for row in unit], axis=1)
