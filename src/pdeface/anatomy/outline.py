@@ -4,49 +4,40 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
-from pdeface.template import column_v, row_u
+from pdeface.openings import Opening
+from pdeface.template import openings
 
 __all__ = ["OPENINGS", "SAMPLES", "Loop", "Margins", "Outline", "outline_uv"]
 
 FloatArray = NDArray[np.float64]
 
-SAMPLES = 33
+OPENINGS = tuple(opening.name for opening in openings())
+"""The openings of the face by name."""
+
+SAMPLES = len(openings()[0].v)
 """Samples of each margin."""
 
-OPENINGS = MappingProxyType(
-    {
-        "right_eye": ("upper_lid_margin", "lower_lid_margin", "right_eye_outer", "right_eye_inner"),
-        "left_eye": ("upper_lid_margin", "lower_lid_margin", "left_eye_inner", "left_eye_outer"),
-        "mouth": (
-            "mouth_seam_upper",
-            "mouth_seam_lower",
-            "right_mouth_corner",
-            "left_mouth_corner",
-        ),
-    }
-)
-"""Rows of the upper and lower margin and columns of the right and left corner, by opening."""
 
-
-def outline_uv(name: str, samples: int = SAMPLES) -> tuple[FloatArray, FloatArray]:
+def outline_uv(name: str) -> tuple[FloatArray, FloatArray]:
     """Where the margins of an opening lie on the face.
 
     Returns:
-        (2, samples) values of u, the upper margin's and the lower's; (samples,) values of v from
-        the subject's right to left, ``v_mid - h cos(pi i / (samples - 1))``, dense at the corners.
+        (2, SAMPLES) values of u, the upper margin's and the lower's; (SAMPLES,) values of v from
+        the subject's right to left, dense at the corners.
     """
-    upper, lower, right, left = OPENINGS[name]
-    start, end = column_v(right), column_v(left)
-    cosine = np.cos(np.pi * np.arange(samples) / (samples - 1))
-    v = 0.5 * (start + end) - 0.5 * (end - start) * cosine
-    return np.stack([np.full(samples, row_u(row)) for row in (upper, lower)]), v
+    opening = _named(name)
+    return np.array([opening.upper, opening.lower]), np.array(opening.v)
+
+
+def _named(name: str) -> Opening:
+    (found,) = (opening for opening in openings() if opening.name == name)
+    return found
 
 
 class Margins(NamedTuple):

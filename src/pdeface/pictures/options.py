@@ -44,6 +44,11 @@ class Options:
     height: int = 1000
     openings: Openings = "cut"
 
+    @property
+    def is_cut(self) -> bool:
+        """Whether the eyes and the mouth of a face that has them are open."""
+        return self.openings == "cut" and self.join == "smooth"
+
     def sample(self, face: Face, otherwise: tuple[int, int] = FINE_MESH) -> FaceMesh:
         """The face on the uv mesh asked for."""
         rows, columns = self.mesh or otherwise

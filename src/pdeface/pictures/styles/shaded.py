@@ -6,6 +6,7 @@ from typing import Final
 
 from pdeface.face import Face
 from pdeface.pictures.camera import Camera
+from pdeface.pictures.inside import inside
 from pdeface.pictures.light import rig_named
 from pdeface.pictures.options import Options
 from pdeface.pictures.skin import skin
@@ -19,4 +20,6 @@ CLAY: Final = (0.76, 0.665, 0.585)
 
 def shaded(face: Face, camera: Camera, options: Options) -> list[Solid]:
     """The surface in clay under studio light, or under raking light to judge its fairness."""
-    return skin(options.sample(face), CLAY, camera, rig_named(options.light or "studio"))
+    rig = rig_named(options.light or "studio")
+    face_itself = skin(options.sample(face), CLAY, camera, rig)
+    return [*face_itself, *(inside(face, camera, rig, albedo=CLAY) if options.is_cut else [])]

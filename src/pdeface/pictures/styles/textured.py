@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from pdeface.face import Face
 from pdeface.pictures.camera import Camera
+from pdeface.pictures.inside import inside
 from pdeface.pictures.light import encode_srgb, rig_named
 from pdeface.pictures.options import Options
 from pdeface.pictures.skin import skin
@@ -19,7 +20,8 @@ __all__ = ["textured"]
 def textured(face: Face, camera: Camera, options: Options) -> list[Solid]:
     """The texture under nearly even light: a photo brings its own."""
     rig = rig_named(options.light or "soft")
-    return skin(options.sample(face), (1.0, 1.0, 1.0), camera, rig, _opaque(face.texture))
+    face_itself = skin(options.sample(face), (1.0, 1.0, 1.0), camera, rig, _opaque(face.texture))
+    return [*face_itself, *(inside(face, camera, rig) if options.is_cut else [])]
 
 
 def _opaque(texture: NDArray[np.uint8] | None) -> NDArray[np.uint8] | None:

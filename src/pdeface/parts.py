@@ -1,0 +1,80 @@
+"""The parts of one face: eyes, the rims of the lids and all of the mouth, in their places.
+
+Where they lie follows from who the face is, and how they move is linear in what its lids and lips
+and its expressions do, so that the face and its parts have the same morph targets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.anatomy import OPENINGS, PARTS, Margins, Outline, Part, placed
+from pdeface.controls import CONTROLS, Displacement, expressed, person
+from pdeface.controls.seams import seam
+from pdeface.face import Face
+
+__all__ = ["FaceParts"]
+
+FloatArray = NDArray[np.float64]
+
+# Blinks of which the eyeballs keep clear, lest they show through a lid on its way.
+_BLINKS = (0.25, 0.5, 0.75, 1.0)
+
+
+class FaceParts:
+    """The parts behind the openings of a face.
+
+    Args:
+        face: with curves on lids and lips (:attr:`pdeface.Face.has_lids`).
+
+    Example:
+        >>> import pdeface
+        >>> parts = FaceParts(pdeface.neutral().set(eyeLookUpLeft=1.0))
+        >>> parts.curves("left_eyeball").shape
+        (16, 16, 3)
+    """
+
+    parts: Mapping[str, Part] = MappingProxyType(PARTS)
+
+    def __init__(self, face: Face) -> None:
+        self._face = face
+        self._rest = face.curves.points + person(face.weights, face.curves.shape)
+        self._weights = {n: w for n, w in face.weights.items() if CONTROLS[n].kind == "expression"}
+        self._outline = self._sampled(self._rest, np.zeros_like(self._rest))
+        lids = [self._blinking(blink) for blink in _BLINKS]
+        self._anatomy = placed(self._outline, lids)
+
+    def curves(self, name: str) -> FloatArray:
+        """(K, M, 3) closed curves of a part as the face is now, metres."""
+        return self._anatomy.curves(name) + self.moved(name, self._displacement, self._weights)
+
+    def moved(self, name: str, by: Displacement, weights: Mapping[str, float]) -> FloatArray:
+        """(K, M, 3) displacement of a part's curves where expressions displace the face's.
+
+        Args:
+            name: of the part.
+            by: displacement of the curves of the face.
+            weights: the expressions that displace them.
+        """
+        return self._anatomy.moved(name, self._sampled(by.smooth, by.parting), weights)
+
+    @cached_property
+    def _displacement(self) -> Displacement:
+        return self._expressed(self._weights)
+
+    def _blinking(self, blink: float) -> Outline:
+        moved = self._expressed({"eyeBlinkLeft": blink, "eyeBlinkRight": blink})
+        return self._sampled(self._rest + moved.smooth, moved.parting)
+
+    def _expressed(self, weights: Mapping[str, float]) -> Displacement:
+        return expressed(self._rest, weights, self._face.a, self._face.modes)
+
+    def _sampled(self, smooth: FloatArray, parting: FloatArray) -> Outline:
+        shape, a, modes = self._face.curves.shape, self._face.a, self._face.modes
+        lines = (seam(name, shape, a, modes).lines(smooth, parting) for name in OPENINGS)
+        return Outline(*(Margins(*pair) for pair in lines))
