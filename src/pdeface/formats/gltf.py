@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
+from pdeface.controls.neck import PIVOT
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
-from pdeface.formats._animation import Animation, add_animation, add_head
+from pdeface.formats._animation import Animation, add_animation
 from pdeface.formats._gltf_builder import GltfBuilder
 from pdeface.formats._sample import Sample
 from pdeface.formats._shared import GENERATOR, ROUGHNESS, SKIN, linear
 from pdeface.formats._targets import MorphTargets
 from pdeface.images import has_holes, media_type
 
-__all__ = ["build_gltf", "write_glb", "write_gltf"]
+__all__ = ["add_face", "begin", "build_gltf", "write_glb", "write_gltf"]
+
+Triple = tuple[float, float, float]
 
 _LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP_TO_EDGE = 9729, 9987, 33071
 
@@ -49,9 +52,7 @@ def write_gltf(
 def build_gltf(
     face: Face, targets: MorphTargets, animation: Animation | None = None
 ) -> GltfBuilder:
-    """The document: one scene, one node, one mesh of one primitive, one material.
-
-    With an animation, the node lies below another, the head, which turns about the neck.
+    """The document: one scene, the head, below it the face, one mesh of one primitive.
 
     Args:
         face: whose texture, name and notes go into the file.
@@ -61,9 +62,40 @@ def build_gltf(
     Raises:
         InputError: the animation moves none of them and no head.
     """
+    document = begin(face)
+    head, node = add_face(document, face, targets)
+    if animation is not None:
+        add_animation(document, animation, targets.names, targets.weights, node, head)
+    document.add("scenes", nodes=[head])
+    return document
+
+
+def begin(face: Face) -> GltfBuilder:
+    """A document without objects that says who made it, and whose the face is."""
     document = GltfBuilder(GENERATOR)
     if "copyright" in face.notes:
         document.asset["copyright"] = face.notes["copyright"]
+    return document
+
+
+def add_face(
+    document: GltfBuilder, face: Face, targets: MorphTargets, at: Triple = PIVOT
+) -> tuple[int, int]:
+    """Add the face, and above it the head: a node that turns about the neck.
+
+    A node turns about its own origin, so that the head is a node in the neck, and the face one
+    below it that is moved back by as much.
+
+    Args:
+        document: to which they are added.
+        face: whose texture and name go into the file.
+        targets: the mesh, and the expressions that move it.
+        at: where the neck is in the node that the head will belong to, metres; by default where
+            the face is then in its own frame.
+
+    Returns:
+        The nodes of the head and of the face.
+    """
     name = face.name or "face"
     primitive = _add_primitive(document, targets.surface, _add_material(document, face))
     morphs: dict[str, Any] = {}
@@ -72,13 +104,9 @@ def build_gltf(
         # The specification has no place for names; this one every program knows.
         morphs = {"weights": targets.weights, "extras": {"targetNames": targets.names}}
     mesh = document.add("meshes", name=name, primitives=[primitive], **morphs)
-    if animation is None:
-        root = document.add("nodes", name=name, mesh=mesh)
-    else:
-        root, node = add_head(document, name=name, mesh=mesh)
-        add_animation(document, animation, targets.names, targets.weights, node, root)
-    document.add("scenes", nodes=[root])
-    return document
+    back = [0.0 - coordinate for coordinate in PIVOT]
+    node = document.add("nodes", name=name, mesh=mesh, translation=back)
+    return document.add("nodes", name="head", translation=list(at), children=[node]), node
 
 
 def _add_primitive(document: GltfBuilder, surface: Sample, material: int) -> dict[str, Any]:

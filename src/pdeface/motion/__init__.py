@@ -1,12 +1,12 @@
 """Motion: tracks of expression weights over time, read from recordings or built in."""
 
+from pdeface.controls.presets import VRM_PRESETS
+from pdeface.controls.visemes import VISEMES
 from pdeface.motion.clips import CLIPS, clip
 from pdeface.motion.livelink import read_livelink
 from pdeface.motion.names import ARKIT_NAMES
 from pdeface.motion.reading import SUFFIXES, read, write
 from pdeface.motion.track import Pose, Track
-from pdeface.motion.visemes import VISEMES
-from pdeface.motion.vrm import VRM_PRESETS
 
 __all__ = [
     "ARKIT_NAMES",
