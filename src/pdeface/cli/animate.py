@@ -77,9 +77,9 @@ def animate(
         raise InputError(f"a video such as '{out}' cannot be written yet; write a .glb and play it")
     report = Report(quiet)
     import pdeface
-    from pdeface.formats import SUFFIXES_THAT_MOVE
+    from pdeface.formats import SUFFIXES_THAT_PLAY
 
-    check_outputs([out], [face, Path(motion)], SUFFIXES_THAT_MOVE)
+    check_outputs([out], [face, Path(motion)], SUFFIXES_THAT_PLAY)
     value = pdeface.load(face)
     moving = chosen_expressions(value, expressions, [out])[out]
     track = _track(motion, fps, drop_frame, clamp, degrees)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
+from pdeface.cli.moves import chosen_expressions, parse_weights, speaking, with_weights
 from pdeface.cli.options import (
     DEFAULT_MESH,
     ClampOption,
@@ -16,6 +16,7 @@ from pdeface.cli.options import (
     MeshOption,
     QuietOption,
     SetOption,
+    VisemesOption,
     check_outputs,
     parse_mesh,
 )
@@ -36,7 +37,7 @@ def make(
             "--out",
             metavar="OUT",
             help="File to write; may be repeated. The suffix picks the format: .pdeface, .glb, "
-            ".gltf, .obj, .ply, .stl, or .png for a sheet of pictures from three sides.",
+            ".gltf, .vrm, .obj, .ply, .stl, or .png for a sheet of pictures from three sides.",
         ),
     ],
     photo: Annotated[
@@ -66,6 +67,7 @@ def make(
     set_: SetOption = None,
     clamp: ClampOption = False,
     expressions: ExpressionsOption = None,
+    visemes: VisemesOption = False,
     mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
     quiet: QuietOption = False,
@@ -93,6 +95,7 @@ def make(
 
     shape = with_weights(_shape(person, level), weights, clamp)
     moving = chosen_expressions(shape, expressions, out)
+    talking = speaking(visemes, shape, out)
     check_outputs(out, [photo, points], [*SUFFIXES, *PICTURES])
     report = Report(quiet)
     with report.step("warping the photo onto the uv mesh"):
@@ -104,7 +107,14 @@ def make(
 
                 demo_sheet(face, path, progress=progress)
             else:
-                pdeface.export(face, path, mesh=size, join=join, expressions=moving[path])
+                pdeface.export(
+                    face,
+                    path,
+                    mesh=size,
+                    join=join,
+                    expressions=moving[path],
+                    visemes=path in talking,
+                )
         report.wrote(path)
 
 

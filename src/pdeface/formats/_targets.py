@@ -16,13 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.controls import ARKIT, CONTROLS, displacement, slits
+from pdeface.controls.visemes import VISEMES
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.formats._sample import Sample
 from pdeface.pde import GridEvaluator, Join
 from pdeface.uvmesh import UVMesh
 
-__all__ = ["Expressions", "MorphTargets", "expression_names"]
+__all__ = ["Expressions", "MorphTargets", "expression_names", "target_names"]
 
 Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
@@ -67,16 +68,28 @@ def expression_names(face: Face, expressions: Expressions) -> tuple[str, ...]:
     return names
 
 
+def target_names(face: Face, expressions: Sequence[str], visemes: bool) -> tuple[str, ...]:
+    """The morph targets of a file: these expressions, and after them the visemes if asked for.
+
+    Raises:
+        InputError: visemes, and a face that cannot make them.
+    """
+    if not visemes:
+        return tuple(expressions)
+    slits(face.curves.shape[0])
+    return (*expressions, *VISEMES)
+
+
 @dataclass(frozen=True, eq=False)
 class MorphTargets:
-    """Expressions as displacements of the vertices and normals of a sampled face.
+    """Expressions and visemes as displacements of the vertices and normals of a sampled face.
 
     Attributes:
         face: without these expressions.
         surface: the face sampled.
         join: how its patches meet.
-        names: the expressions.
-        weights: of the expressions, in the order of their names.
+        names: the expressions and visemes.
+        weights: of these, in the order of their names.
 
     Raises:
         InputError: more than a gigabyte of displacements.
@@ -93,15 +106,15 @@ class MorphTargets:
         size = 24 * len(self.names) * rows * columns
         if size > _LARGEST:
             raise InputError(
-                f"{len(self.names)} expressions on a mesh of {rows} x {columns} would take up to "
+                f"{len(self.names)} morph targets on a mesh of {rows} x {columns} would take up to "
                 f"{size / 2**30:.1f} GiB, and {_LARGEST >> 30} is the most; "
                 "choose a coarser mesh, or fewer expressions"
             )
 
     def differences(self) -> Iterator[tuple[Float32, Float32]]:
-        """(V, 3) positions, metres, and (V, 3) normals that each expression adds."""
+        """(V, 3) positions, metres, and (V, 3) normals that each target adds."""
         shape, count = self.face.curves.shape, len(self.surface.vertices)
-        moved = [displacement({name: 1.0}, shape) for name in self.names]
+        moved = [displacement(VISEMES.get(name, {name: 1.0}), shape) for name in self.names]
         own = displacement(self.face.weights, shape)
         parts = self.join == "smooth"
         base = _layers(self.face.curves.points + own.smooth, own.parting, parts)
