@@ -13,6 +13,7 @@ from pdeface.formats._sample import sample
 from pdeface.formats._targets import Expressions, MorphTargets, expression_names, target_names
 from pdeface.formats.gltf import write_glb, write_gltf
 from pdeface.formats.obj import write_obj
+from pdeface.formats.obj_sequence import export_sequence
 from pdeface.formats.ply import write_ply
 from pdeface.formats.stl import write_stl
 from pdeface.formats.vrm import write_vrm
@@ -24,6 +25,7 @@ __all__ = [
     "SUFFIXES_THAT_PLAY",
     "Animation",
     "export",
+    "export_sequence",
     "expression_names",
     "target_names",
 ]

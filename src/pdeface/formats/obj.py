@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
-from pdeface.formats._companion import write_beside, write_texture_beside
+from pdeface.formats._companion import name_beside, write_beside, write_texture_beside
 from pdeface.formats._sample import Sample
 from pdeface.formats._shared import GENERATOR, SKIN
 
-__all__ = ["write_obj"]
+__all__ = ["material", "obj_text", "write_obj"]
 
 
 def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True) -> None:
@@ -22,11 +22,16 @@ def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True
     Raises:
         InputError: a place that cannot be written.
     """
+    texture = write_texture_beside(path, face)
+    library = write_beside(path, name_beside(path, ".mtl"), material(texture))
+    atomic_write(path, obj_text(surface, library, quads=quads))
+
+
+def obj_text(surface: Sample, library: str, *, quads: bool = True) -> bytes:
+    """The content of an OBJ whose material lies in the file ``library`` beside it."""
     cells = surface.quads if quads else surface.triangles
     # The three lists run in step, so that a corner is the same number three times, from 1.
     corner = " %d/%d/%d" * cells.shape[1]
-    material = _material(write_texture_beside(path, face))
-    library = write_beside(path, ".mtl", material.encode())
     text = [
         f"# {GENERATOR}, metres, +Y up, +Z forward\nmtllib {library}\no face\n",
         _lines("v %.9g %.9g %.9g\n", surface.vertices),
@@ -35,7 +40,7 @@ def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True
         "usemtl face\ns 1\n",
         _lines(f"f{corner}\n", np.repeat(cells + 1, 3, axis=1)),
     ]
-    atomic_write(path, "".join(text).encode())
+    return "".join(text).encode()
 
 
 def _lines(pattern: str, values: NDArray[np.generic]) -> str:
@@ -43,10 +48,11 @@ def _lines(pattern: str, values: NDArray[np.generic]) -> str:
     return pattern * len(values) % tuple(values.ravel().tolist())
 
 
-def _material(texture: str | None) -> str:
+def material(texture: str | None) -> bytes:
+    """The content of an MTL: skin that does not shine, with a texture of this name or none."""
     lines = [f"# {GENERATOR}", "newmtl face", "Ka 0 0 0", "Ks 0 0 0", "d 1", "illum 1"]
     if texture is None:
         lines.append("Kd {:.3f} {:.3f} {:.3f}".format(*SKIN))
     else:
         lines += ["Kd 1 1 1", f"map_Kd {texture}"]
-    return "\n".join([*lines, ""])
+    return "\n".join([*lines, ""]).encode()

@@ -3,6 +3,7 @@
 from pdeface.controls.presets import VRM_PRESETS
 from pdeface.controls.visemes import VISEMES
 from pdeface.motion.clips import CLIPS, clip
+from pdeface.motion.frames import Frames
 from pdeface.motion.livelink import read_livelink
 from pdeface.motion.names import ARKIT_NAMES
 from pdeface.motion.reading import SUFFIXES, read, write
@@ -14,6 +15,7 @@ __all__ = [
     "SUFFIXES",
     "VISEMES",
     "VRM_PRESETS",
+    "Frames",
     "Pose",
     "Track",
     "clip",

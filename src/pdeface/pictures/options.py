@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
+from pdeface.controls.neck import PIVOT, rotations
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.pde import Join
@@ -34,6 +36,8 @@ class Options:
         light: name of a rig in :data:`pdeface.pictures.light.RIGS`; None for the style's own.
         loops: show the closed curves, back halves included (style ``curves``).
         height: height of the picture in pixels, by which lines get their width.
+        head: (3,) yaw, pitch and roll of the head, radians, in the styles that draw nothing but
+            the uv mesh.
     """
 
     mesh: tuple[int, int] | None = None
@@ -41,11 +45,13 @@ class Options:
     light: str | None = None
     loops: bool = False
     height: int = 1000
+    head: NDArray[np.float64] | None = None
 
     def sample(self, face: Face, otherwise: tuple[int, int] = FINE_MESH) -> FaceMesh:
         """The face on the uv mesh asked for."""
         rows, columns = self.mesh or otherwise
-        return face.mesh(rows, columns, join=self.join)
+        mesh = face.mesh(rows, columns, join=self.join)
+        return mesh if self.head is None else mesh.turned(rotations(self.head), PIVOT)
 
 
 def check_size(size: tuple[int, int]) -> tuple[int, int]:
