@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from pdeface.errors import InputError
-from pdeface.files import atomic_path, atomic_write
+from pdeface.files import atomic_batch, atomic_path, atomic_write
 
 
 def names(folder: Path) -> list[str]:
@@ -109,3 +109,33 @@ def test_a_new_file_has_the_users_usual_mode(tmp_path: Path) -> None:
     (tmp_path / "usual").write_bytes(b"")
     atomic_write(tmp_path / "ours", b"")
     assert (tmp_path / "ours").stat().st_mode == (tmp_path / "usual").stat().st_mode
+
+
+def test_a_batch_appears_together(tmp_path: Path) -> None:
+    with atomic_batch() as write:
+        for name in ("a", "b", "c"):
+            write(tmp_path / name, name.encode())
+        assert not {"a", "b", "c"} & set(names(tmp_path))
+    assert [(name, (tmp_path / name).read_bytes()) for name in names(tmp_path)] == [
+        (name, name.encode()) for name in ("a", "b", "c")
+    ]
+
+
+@pytest.mark.parametrize("problem", [ValueError, KeyboardInterrupt])
+def test_a_batch_that_fails_leaves_all_as_it_was(
+    tmp_path: Path, problem: type[BaseException]
+) -> None:
+    (tmp_path / "a").write_bytes(b"old")
+    with pytest.raises(problem), atomic_batch() as write:
+        write(tmp_path / "a", b"new")
+        write(tmp_path / "b", b"new")
+        raise problem
+    assert names(tmp_path) == ["a"]
+    assert (tmp_path / "a").read_bytes() == b"old"
+
+
+def test_a_batch_in_which_one_cannot_be_written_writes_none(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"), atomic_batch() as write:
+        write(tmp_path / "a", b"new")
+        write(tmp_path / "no" / "b", b"new")
+    assert names(tmp_path) == []

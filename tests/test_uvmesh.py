@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pdeface.errors import InputError
-from pdeface.uvmesh import UVMesh
+from pdeface.uvmesh import FaceMesh, UVMesh
 
 MESHES = st.builds(UVMesh, st.integers(2, 9), st.integers(3, 9), st.sampled_from(["face", "loop"]))
 
@@ -87,3 +87,15 @@ def test_texcoords_are_v_and_u(mesh):
 def test_a_mesh_that_cannot_be_is_refused(arguments, message):
     with pytest.raises(InputError, match=message):
         UVMesh(*arguments)
+
+
+def test_a_mesh_turned_about_a_point() -> None:
+    points = np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]])
+    cells = UVMesh(2, 2)
+    mesh = FaceMesh(points, points, points[:, :2], cells.quads, cells.triangles, (2, 2))
+    quarter = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # +Z to +X
+    found = mesh.turned(quarter, (1.0, 0.0, 0.0))
+    np.testing.assert_allclose(found.vertices, [[1, 0, 0], [1, 2, 1], [4, 0, 1]])
+    np.testing.assert_allclose(found.normals, [[0, 0, -1], [0, 2, 0], [3, 0, 0]])
+    assert found.quads is mesh.quads
+    assert mesh.vertices is points

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 from pdeface.errors import InputError
 
-__all__ = ["PathLike", "atomic_path", "atomic_write"]
+__all__ = ["PathLike", "atomic_batch", "atomic_path", "atomic_write"]
 
 PathLike = str | os.PathLike[str]
 
@@ -54,11 +54,35 @@ def atomic_write(path: PathLike, data: bytes) -> None:
     Raises:
         InputError: as for :func:`atomic_path`, or the disk is full.
     """
-    with atomic_path(path) as temporary:
-        try:
-            temporary.write_bytes(data)
-        except OSError as error:
-            raise _cannot_write(path, error) from error
+    with atomic_batch() as write:
+        write(path, data)
+
+
+@contextmanager
+def atomic_batch() -> Iterator[Callable[[PathLike, bytes], None]]:
+    """A function that writes a file; all the files appear when the block ends well, or none.
+
+    Each is complete under another name before the first takes its place, so that only a move
+    within a folder, of those that have begun, could come between them.
+
+    Raises:
+        InputError: as for :func:`atomic_path`, or the disk is full.
+
+    Example:
+        >>> with atomic_batch() as write:  # doctest: +SKIP
+        ...     write("a.txt", b"both")
+        ...     write("b.txt", b"or none")
+    """
+    with ExitStack() as stack:
+
+        def write(path: PathLike, data: bytes) -> None:
+            temporary = stack.enter_context(atomic_path(path))
+            try:
+                temporary.write_bytes(data)
+            except OSError as error:
+                raise _cannot_write(path, error) from error
+
+        yield write
 
 
 def _checked_target(path: PathLike) -> Path:

@@ -8,12 +8,12 @@ loops. Texture coordinates are (v, u): seen from the front, the texture is uprig
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from pdeface.errors import InputError
 from pdeface.openings import Cut, Opening, cut_rows, snapped
@@ -160,3 +160,9 @@ class FaceMesh:
     fans: IndexArray
     triangles: IndexArray
     grid: tuple[int, int]
+
+    def turned(self, rotation: FloatArray, about: ArrayLike) -> FaceMesh:
+        """The mesh after a rotation, a (3, 3) matrix, about a point, (3,) metres."""
+        origin = np.asarray(about, dtype=np.float64)
+        vertices = (self.vertices - origin) @ rotation.T + origin
+        return replace(self, vertices=vertices, normals=self.normals @ rotation.T)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import pdeface
+from pdeface.controls.neck import PIVOT, rotations
 from pdeface.motion import CLIPS, Track, clip, write
 
 # Five frames at 60 a second; the third is the one with the eyes shut.
@@ -161,8 +163,16 @@ def test_drop_frame_timecode_skips_two_numbers_a_minute(
     [
         ("blnk", "a.glb", [], "or a clip (blink, smile, look, talk), got 'blnk'"),
         ("none.csv", "a.glb", [], "none.csv"),
-        ("blink", "a.mp4", [], "cannot be written yet"),
-        ("blink", "a.obj", [], "must be one of .glb, .gltf"),
+        ("blink", "a.vrm", [], "must be one of .glb, .gltf, .mp4, .obj"),
+        ("blink", "a.glb", ["--rate", "24"], "keeps the times of the motion"),
+        ("blink", "a.glb", ["--view", "front"], "--view is for a film"),
+        ("blink", "a.obj", ["--style", "shaded"], "--style is for a film"),
+        ("blink", "a.obj", ["--rate", "0"], "more than 0 frames a second"),
+        ("blink", "a.obj", ["--expressions", "jawOpen"], "--expressions needs an output"),
+        ("blink", "a.mp4", ["--size", "99"], "--size needs WIDTHxHEIGHT"),
+        ("blink", "a.mp4", ["--size", "101x100"], "even"),
+        ("blink", "a.mp4", ["--style", "curves"], "style of a film"),
+        ("blink", "a.mp4", ["--rate", "nan"], "a finite number"),
         ("blink", "a.glb", ["--degrees"], "are for a .csv, got the clip 'blink'"),
         ("blink", "a.glb", ["--drop-frame"], "are for a .csv, got the clip 'blink'"),
         ("blink", "a.glb", ["--fps", "0"], "more than 0 frames a second"),
@@ -181,6 +191,45 @@ def test_bad_input_is_one_line(
     assert line.startswith("error: ")
     assert message in line
     assert not Path(out).exists()
+
+
+def test_a_mesh_for_each_frame(pdeface_command, face_file, blink_file, tmp_path) -> None:
+    out = tmp_path / "new" / "face.obj"
+    words = ["animate", face_file, blink_file, "-o", out, "--fps", "60", "--rate", "60"]
+    outcome = pdeface_command(*words, "--mesh", "28x41")
+    assert outcome.status == 0
+    assert outcome.out.startswith(f"wrote {out.with_name('face.0001.obj')} to face.0005.obj (5 ")
+    left_out = next(line for line in outcome.err.splitlines() if "left out" in line)
+    assert left_out.endswith(": tongueOut")
+
+    def vertices(number: int) -> np.ndarray:
+        text = out.with_name(f"face.{number:04d}.obj").read_text(encoding="utf-8")
+        rows = [line.split()[1:] for line in text.splitlines() if line.startswith("v ")]
+        return np.array(rows, dtype=float)
+
+    shut = pdeface.random(1).set(eyeBlinkLeft=1.0).mesh(28, 41)
+    truth = shut.turned(rotations(np.array([0.1 * SHUT, 0.0, 0.0])), PIVOT)
+    np.testing.assert_allclose(vertices(SHUT + 1), truth.vertices, atol=1e-7)
+    assert not (out.parent / "face.obj").exists()
+
+
+def test_a_film(pdeface_command, face_file, tmp_path) -> None:
+    pytest.importorskip("imageio_ffmpeg")
+    out = tmp_path / "a.mp4"
+    words = ["animate", face_file, "blink", "-o", out, "--rate", "4", "--mesh", "28x41"]
+    outcome = pdeface_command(*words, "--size", "64x80", "--view", "35", "--style", "uvmesh")
+    assert (outcome.status, outcome.out.startswith(f"wrote {out}")) == (0, True)
+    assert out.read_bytes()[4:8] == b"ftyp"
+
+
+def test_a_film_without_its_extra_names_it(
+    pdeface_command, face_file, tmp_path, monkeypatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    outcome = pdeface_command("animate", face_file, "blink", "-o", tmp_path / "a.mp4")
+    assert outcome.status == 1
+    assert "pip install 'pdeface[video]'" in outcome.err
+    assert not (tmp_path / "a.mp4").exists()
 
 
 def test_a_truncated_row_is_named_and_nothing_is_written(

@@ -25,7 +25,9 @@ def glb_json(path) -> dict:
     return json.loads(data[20 : 20 + length])
 
 
-@pytest.mark.parametrize("suffix", [".glb", ".gltf", ".obj", ".ply", ".stl", ".pdeface", ".GLB"])
+@pytest.mark.parametrize(
+    "suffix", [".glb", ".gltf", ".vrm", ".obj", ".ply", ".stl", ".pdeface", ".GLB"]
+)
 def test_export_writes_the_format_of_the_suffix(pdeface_command, bust_file, suffix) -> None:
     out = bust_file.with_name(f"out{suffix}")
     outcome = pdeface_command("export", bust_file, "-o", out, "--mesh", "9x11")

@@ -11,6 +11,7 @@ import pytest
 
 import pdeface
 from pdeface.controls import CONTROLS
+from pdeface.controls.visemes import VISEMES
 
 EXPRESSIONS = [c.name for c in CONTROLS.values() if c.kind == "expression"]
 
@@ -91,7 +92,7 @@ def test_an_expression_option_without_use_is_said_and_nothing_written(
     out = face_file.with_name("a.obj")
     outcome = pdeface_command("export", face_file, "-o", out, "--expressions", "jawOpen")
     assert outcome.status == 2
-    assert ".glb or .gltf" in outcome.err
+    assert ".glb or .gltf or .vrm" in outcome.err
     assert not out.exists()
     assert pdeface_command("export", face_file, "-o", out, "--expressions", "none").status == 0
 
@@ -167,3 +168,26 @@ def test_info_shows_the_controls_that_are_not_at_rest(pdeface_command, face_file
     assert "eyeBlinkLeft" not in out
     facts = json.loads(pdeface_command("info", face_file, "--json").out)
     assert facts["weights"] == dict(pdeface.load(face_file).weights)
+
+
+@pytest.mark.parametrize("words", [["export", "FACE"], ["make"]], ids=lambda words: words[0])
+def test_visemes_go_where_they_can(pdeface_command, face_file, words) -> None:
+    outs = [face_file.with_name(name) for name in ("a.glb", "a.vrm", "a.stl")]
+    words = [face_file if word == "FACE" else word for word in words]
+    words += [word for out in outs for word in ("-o", out)]
+    words += ["--mesh", "9x11", "--expressions", "jawOpen", "--visemes"]
+    assert pdeface_command(*words).status == 0
+    for out in outs[:2]:
+        assert mesh_of(out)["extras"]["targetNames"] == ["jawOpen", *VISEMES]
+    assert outs[2].exists()
+
+
+def test_visemes_of_no_use_are_said(pdeface_command, face_file, bust_file) -> None:
+    out = face_file.with_name("a.stl")
+    outcome = pdeface_command("export", face_file, "-o", out, "--visemes")
+    assert (outcome.status, out.exists()) == (2, False)
+    assert "--visemes needs an output that ends in .glb or .gltf or .vrm" in outcome.err
+    out = face_file.with_name("a.glb")
+    outcome = pdeface_command("export", bust_file, "-o", out, "--visemes")
+    assert (outcome.status, out.exists()) == (2, False)
+    assert "27 n + 1 curves" in outcome.err

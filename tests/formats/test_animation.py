@@ -16,9 +16,10 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
 import pdeface
+from pdeface.controls.neck import PIVOT, rotations
 from pdeface.errors import InputError
 from pdeface.formats import Animation
-from pdeface.formats._animation import PIVOT, quaternions
+from pdeface.formats._animation import quaternions
 
 TIMES = [0.5, 1.0, 1.75]
 BLINK = {"eyeBlinkLeft": [0.0, 1.0, 0.25]}
@@ -163,11 +164,17 @@ def test_at_rest_the_face_is_where_it_is_without_animation(tmp_path: Path) -> No
     np.testing.assert_allclose(moving.vertices, NEUTRAL.mesh().vertices, atol=1e-7)
 
 
-def test_without_an_animation_there_is_one_node_as_before(tmp_path: Path) -> None:
-    pdeface.export(NEUTRAL, tmp_path / "a.glb")
+@pytest.mark.parametrize("animation", [None, Animation("blink", TIMES, BLINK)], ids=["no", "yes"])
+def test_a_file_always_has_a_head_to_turn(animation, tmp_path: Path) -> None:
+    pdeface.export(NEUTRAL.with_name("Ada"), tmp_path / "a.glb", animation=animation)
     document, _ = parsed(tmp_path / "a.glb")
-    assert document["nodes"] == [{"name": NEUTRAL.name or "face", "mesh": 0}]
-    assert "animations" not in document
+    back = [0.0 - coordinate for coordinate in PIVOT]
+    assert document["nodes"] == [
+        {"name": "Ada", "mesh": 0, "translation": back},
+        {"name": "head", "translation": list(PIVOT), "children": [0]},
+    ]
+    assert document["scenes"] == [{"nodes": [1]}]
+    assert ("animations" in document) == (animation is not None)
 
 
 @given(arrays(np.float64, (5, 3), elements=st.floats(-7, 7)))
@@ -178,6 +185,13 @@ def test_quaternions_are_yaw_then_pitch_then_roll_by_the_short_way(angles: np.nd
     for quaternion, (yaw, pitch, roll) in zip(found, angles, strict=True):
         truth = turned(yaw, 1) @ turned(pitch, 0) @ turned(roll, 2)
         np.testing.assert_allclose(rotated(quaternion), truth, atol=1e-12)
+
+
+@given(arrays(np.float64, (3,), elements=st.floats(-7, 7)))
+def test_matrices_of_a_head_are_yaw_then_pitch_then_roll(angles: np.ndarray) -> None:
+    truth = turned(angles[0], 1) @ turned(angles[1], 0) @ turned(angles[2], 2)
+    np.testing.assert_allclose(rotations(angles), truth, atol=1e-14)
+    np.testing.assert_array_equal(rotations(np.stack([angles] * 2))[1], rotations(angles))
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from pdeface.formats import SUFFIXES
 SIGNS = {
     ".glb": b"glTF",
     ".gltf": b'{"asset"',
+    ".vrm": b"glTF",
     ".obj": b"# pdeface",
     ".ply": b"ply\n",
     ".stl": b"pdeface",
@@ -42,7 +43,7 @@ def test_unknown_suffix_lists_the_known(textured: Face, name: str, tmp_path: Pat
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("suffix", [".glb", ".gltf", ".stl"])
+@pytest.mark.parametrize("suffix", [".glb", ".gltf", ".vrm", ".stl"])
 def test_formats_without_quads_say_so(textured: Face, suffix: str, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="leave quads out"):
         pdeface.export(textured, tmp_path / f"a{suffix}", quads=True)

@@ -18,6 +18,7 @@ from vtkmodules.vtkIOGeometry import vtkGLTFReader
 import pdeface
 from pdeface import controls
 from pdeface.controls import ARKIT, CONTROLS
+from pdeface.controls.visemes import VISEMES
 from pdeface.curves import BoundaryCurves
 from pdeface.errors import InputError
 from pdeface.face import Face
@@ -68,6 +69,16 @@ def read(path: Path, *, apply: bool = False) -> Read:
         {name: array(f"target{i}_position") for i, name in enumerate(names)},
         {name: array(f"target{i}_normal") for i, name in enumerate(names)},
     )
+
+
+SPEAKER = pdeface.random(9)
+
+
+@pytest.fixture(scope="module")
+def visemes_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("visemes") / "a.glb"
+    pdeface.export(SPEAKER, path, visemes=True)
+    return path
 
 
 def lopsided() -> Face:
@@ -221,8 +232,11 @@ def test_what_is_no_expression_is_said(expressions, message: str, tmp_path: Path
 
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "pdeface"])
 def test_formats_that_stand_still_say_so(suffix: str, tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"expressions can be written to \.glb and \.gltf"):
+    which = r"can be written to \.glb, \.gltf and \.vrm"
+    with pytest.raises(InputError, match=f"expressions {which}"):
         pdeface.export(pdeface.neutral(), tmp_path / f"a.{suffix}", expressions="all")
+    with pytest.raises(InputError, match=f"visemes {which}"):
+        pdeface.export(pdeface.neutral(), tmp_path / f"a.{suffix}", visemes=True)
     pdeface.export(pdeface.neutral(), tmp_path / f"a.{suffix}", expressions=())
 
 
@@ -232,6 +246,39 @@ def test_curves_that_lie_on_no_lids_make_no_expression(tmp_path: Path) -> None:
     assert "weights" not in document(tmp_path / "a.glb")["meshes"][0]
     with pytest.raises(InputError, match="27 n"):
         pdeface.export(face, tmp_path / "b.glb", expressions="all")
+    with pytest.raises(InputError, match="27 n"):
+        pdeface.export(face, tmp_path / "b.glb", visemes=True)
+    assert not (tmp_path / "b.glb").exists()
+
+
+@pytest.mark.parametrize("name", VISEMES)
+def test_a_viseme_is_the_weighted_sum_of_its_controls(name: str, visemes_file: Path) -> None:
+    file, spoken = read(visemes_file), SPEAKER.set(**VISEMES[name]).mesh(28, 41)
+    error = file.vertices + file.moved[name] - spoken.vertices
+    assert np.abs(error).max() < STILL + ROUNDING
+    error = file.normals + file.turned[name] - spoken.normals
+    assert np.abs(error).max() < UNTURNED + NORMAL_ROUNDING
+    summed = sum((w * file.moved[n] for n, w in VISEMES[name].items()), np.zeros((28 * 41, 3)))
+    bound = (1.0 + sum(VISEMES[name].values())) * STILL + ROUNDING
+    assert np.abs(file.moved[name] - summed).max() < bound
+
+
+def test_visemes_follow_the_expressions_and_are_at_rest(visemes_file: Path, khronos) -> None:
+    (mesh,) = document(visemes_file)["meshes"]
+    assert mesh["extras"]["targetNames"] == [*EXPRESSIONS, *VISEMES]
+    assert mesh["weights"] == [0.0] * (51 + 15)
+    assert not read(visemes_file).moved["viseme_sil"].any()
+    report = khronos(visemes_file)
+    assert {m["code"] for m in report["issues"]["messages"]} == {"UNUSED_OBJECT"}
+    assert report["issues"]["numErrors"] == report["issues"]["numWarnings"] == 0
+
+
+def test_visemes_alone(tmp_path: Path) -> None:
+    face = pdeface.neutral().set(jawOpen=0.5)
+    pdeface.export(face, tmp_path / "a.glb", expressions=(), visemes=True)
+    assert list(read(tmp_path / "a.glb").moved) == list(VISEMES)
+    error = read(tmp_path / "a.glb").vertices - face.mesh(28, 41).vertices
+    assert np.abs(error).max() < ROUNDING
 
 
 def test_a_name_given_twice_is_one_target(tmp_path: Path) -> None:

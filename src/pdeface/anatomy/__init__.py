@@ -4,6 +4,7 @@ Eyeballs, the rims of the lids, the cavity of the mouth, teeth and tongue are so
 closed curves by the same core as the face, and their displacements are linear like the face's.
 """
 
+from pdeface.anatomy import textures
 from pdeface.anatomy.outline import OPENINGS, SAMPLES, Margins, Outline, outline_uv
 from pdeface.anatomy.part import PARTS, Part
 from pdeface.anatomy.placing import Anatomy, placed
@@ -18,4 +19,5 @@ __all__ = [
     "Part",
     "outline_uv",
     "placed",
+    "textures",
 ]

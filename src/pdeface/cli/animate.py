@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -13,22 +12,16 @@ from pdeface.cli.options import (
     DEFAULT_MESH,
     ExpressionsOption,
     FacePath,
-    MeshOption,
     QuietOption,
     check_outputs,
     parse_mesh,
+    parse_size,
 )
+from pdeface.cli.playing import FILM, MESHES, SUFFIXES, check_options, write_film, write_meshes
 from pdeface.cli.report import Report
-from pdeface.errors import InputError
-
-if TYPE_CHECKING:
-    from pdeface.formats import Animation
-    from pdeface.motion import Track
+from pdeface.cli.tracks import animation_of, remarks, track_of
 
 __all__ = ["animate"]
-
-# Names in one line of a report.
-_MOST_NAMES = 6
 
 
 def animate(
@@ -39,9 +32,15 @@ def animate(
                        ".npz, or a built-in clip: blink, smile, look or talk."),
     ],
     out: Annotated[
-        Path, typer.Option("-o", "--out", metavar="OUT", help="File to write, .glb or .gltf.")
+        Path,
+        typer.Option("-o", "--out", metavar="OUT", help="What to write: .glb or .gltf, with an "
+                     "animation; .mp4, a film; or .obj, a numbered file for each frame."),
     ],
-    mesh: MeshOption = DEFAULT_MESH,
+    mesh: Annotated[
+        str | None,
+        typer.Option("--mesh", metavar="ROWSxCOLUMNS", help=f"Size of the uv mesh; by default "
+                     f"{DEFAULT_MESH}, and finer in a film."),
+    ] = None,
     expressions: ExpressionsOption = None,
     fps: Annotated[
         float | None,
@@ -57,13 +56,34 @@ def animate(
     degrees: Annotated[
         bool, typer.Option("--degrees", help="The angles of a .csv are degrees.")
     ] = False,
+    rate: Annotated[
+        float | None,
+        typer.Option("--rate", help="Frames a second of a film or of numbered files, by default "
+                     "30; an animation keeps the times of MOTION."),
+    ] = None,
+    view: Annotated[
+        str | None,
+        typer.Option("--view", metavar="front|three-quarter|profile|AZIMUTH", help="Where a film "
+                     "is taken from, by default the front; see 'pdeface render --help'."),
+    ] = None,
+    style: Annotated[
+        str | None,
+        typer.Option("--style", metavar="textured|shaded|uvmesh", help="What a film shows; by "
+                     "default the texture, or the shaded surface of a face that has none."),
+    ] = None,
+    size: Annotated[
+        str | None,
+        typer.Option("--size", metavar="WIDTHxHEIGHT", help="Pixels of a film, both even; by "
+                     "default 720x900."),
+    ] = None,
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
-    """Write a face with an animation, which any viewer of glTF plays at the recorded times.
+    """Write a face that moves: an animation that viewers of glTF play, a film, or meshes.
 
-    Expressions are weights of morph targets; the head turns about a point in the neck. Eyes follow
-    the eyeLook weights; their angles are not used. What the motion lacks, and what it has that
-    the face cannot do, is said on stderr.
+    In a .glb, expressions are weights of morph targets and the head turns about a point in the
+    neck. face.obj stands for face.0001.obj, face.0002.obj and so on, all of them or none, with the
+    same vertices in the same order. Eyes follow the eyeLook weights; their angles are not used.
+    What the motion lacks, and what it has that the face cannot do, is said on stderr.
 
     \b
     Examples:
@@ -71,73 +91,30 @@ def animate(
       pdeface animate face.pdeface take.csv -o take.glb
       pdeface animate face.pdeface take.csv -o take.glb --fps 29.97 --drop-frame
       pdeface animate face.pdeface blink -o web.glb --mesh 28x41 --expressions eyeBlinkLeft
+      pdeface animate face.pdeface talk -o talk.mp4 --view three-quarter
+      pdeface animate face.pdeface take.csv -o frames/face.obj --rate 24
     """
-    size = parse_mesh(mesh)
-    if out.suffix.lower() == ".mp4":
-        raise InputError(f"a video such as '{out}' cannot be written yet; write a .glb and play it")
+    grid = parse_mesh(mesh) if mesh else None
+    film = {"view": view, "style": style, "size": parse_size(size) if size else None}
+    check_options(out, film, rate)
     report = Report(quiet)
     import pdeface
-    from pdeface.formats import SUFFIXES_THAT_MOVE
 
-    check_outputs([out], [face, Path(motion)], SUFFIXES_THAT_MOVE)
+    check_outputs([out], [face, Path(motion)], SUFFIXES)
     value = pdeface.load(face)
     moving = chosen_expressions(value, expressions, [out])[out]
-    track = _track(motion, fps, drop_frame, clamp, degrees)
-    with report.step(f"writing {out}"):
-        animation = _animation(Path(motion).stem, track)
-        pdeface.export(value, out, mesh=size, expressions=moving, animation=animation)
+    track = track_of(motion, fps, drop_frame, clamp, degrees)
+    if out.suffix.lower() == FILM:
+        written, moving = write_film(value, track, out, rate, grid, film, report)
+    elif out.suffix.lower() == MESHES:
+        written, moving = write_meshes(value, track, out, rate, grid, report)
+    else:
+        written = [out]
+        with report.step(f"writing {out}"):
+            grid = grid or parse_mesh(DEFAULT_MESH)
+            clip = animation_of(Path(motion).stem, track)
+            pdeface.export(value, out, mesh=grid, expressions=moving, animation=clip)
     if not quiet:
-        for remark in _remarks(track, moving):
+        for remark in remarks(track, moving):
             typer.echo(f"note: {remark}", err=True)
-    report.wrote(out)
-
-
-def _track(motion: str, fps: float | None, drop_frame: bool, clamp: bool, degrees: bool) -> Track:
-    """The track in a file, or a built-in clip.
-
-    Raises:
-        InputError: neither of them, or an option that does not fit it.
-    """
-    from pdeface.motion import CLIPS, SUFFIXES, clip, read
-
-    if motion not in CLIPS:
-        if not Path(motion).exists() and Path(motion).suffix.lower() not in SUFFIXES:
-            raise InputError(
-                f"expected a file of motion ({', '.join(SUFFIXES)}) or a clip "
-                f"({', '.join(CLIPS)}), got '{motion}', which is neither"
-            )
-        # Without the option the timecode says itself whether it drops numbers.
-        return read(motion, fps, drop_frame or None, clamp, degrees)
-    if drop_frame or degrees:
-        raise InputError(
-            f"--drop-frame and --degrees are for a .csv, got the clip '{motion}'; leave them out"
-        )
-    return clip(motion) if fps is None else clip(motion, fps)
-
-
-def _animation(name: str, track: Track) -> Animation:
-    """The track as what a file can hold; what it should have had and lacks is 0."""
-    from pdeface.formats import Animation
-    from pdeface.motion import ARKIT_NAMES
-
-    lacking = tuple(name for name in track.missing if name in ARKIT_NAMES)
-    names = tuple(dict.fromkeys((*track.names, *lacking)))
-    weights = dict(zip(names, track.weights_of(names).T, strict=True))
-    return Animation(name, track.times, weights, track.head if track.head.any() else None)
-
-
-def _remarks(track: Track, moving: Sequence[str]) -> list[str]:
-    """What the file lacks of the motion, and the motion of what was asked for; a line each."""
-    weights = zip(track.names, track.weights.T, strict=True)
-    lost = [name for name, weight in weights if name not in moving and weight.any()]
-    remarks = [*track.notes]
-    for names, what in (
-        (track.missing, "not in the motion, and so 0"),
-        (track.ignored, "in the motion, but not known and ignored"),
-        (lost, "in the motion, but no expression of the file and left out"),
-    ):
-        if names:
-            shown = ", ".join(names[:_MOST_NAMES])
-            more = len(names) - _MOST_NAMES
-            remarks.append(f"{what}: {shown}{f' and {more} more' if more > 0 else ''}")
-    return remarks
+    report.wrote(*written)

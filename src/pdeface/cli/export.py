@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
+from pdeface.cli.moves import chosen_expressions, parse_weights, speaking, with_weights
 from pdeface.cli.options import (
     DEFAULT_MESH,
     ClampOption,
@@ -18,6 +18,7 @@ from pdeface.cli.options import (
     OpeningsOption,
     QuietOption,
     SetOption,
+    VisemesOption,
     check_outputs,
     parse_mesh,
 )
@@ -31,7 +32,7 @@ def export(
     out: Annotated[
         list[Path],
         typer.Option("-o", "--out", metavar="OUT", help="File to write; may be repeated. The "
-                     "suffix picks the format: .glb, .gltf, .obj, .ply, .stl or .pdeface."),
+                     "suffix picks the format: .glb, .gltf, .vrm, .obj, .ply, .stl or .pdeface."),
     ],
     mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
@@ -44,14 +45,15 @@ def export(
     set_: SetOption = None,
     clamp: ClampOption = False,
     expressions: ExpressionsOption = None,
+    visemes: VisemesOption = False,
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
     """Write a face as a mesh that other programs read.
 
     The face is sampled afresh at any size: the surface has no resolution of its own. Units are
-    metres, +Y up, +Z forward. In .glb and .gltf, expressions are morph targets by ARKit's names,
-    and those that --set turns on are at that weight to begin with; in the other formats they are
-    part of the mesh.
+    metres, +Y up, +Z forward. In .glb, .gltf and .vrm, expressions are morph targets by ARKit's
+    names, and those that --set turns on are at that weight to begin with; in the other formats they
+    are part of the mesh. A .vrm is an avatar, with the expressions that VRM 1.0 names.
 
     \b
     Examples:
@@ -62,6 +64,8 @@ def export(
       pdeface export face.pdeface -o smile.obj --set mouthSmileLeft=0.8,mouthSmileRight=0.8
       pdeface export face.pdeface -o blink.glb --expressions eyeBlinkLeft,eyeBlinkRight
       pdeface export face.pdeface -o still.glb --expressions none
+      pdeface export face.pdeface -o avatar.vrm
+      pdeface export face.pdeface -o talks.glb --visemes
     """
     size, weights = parse_mesh(mesh), parse_weights(set_)
     report = Report(quiet)
@@ -70,6 +74,7 @@ def export(
 
     value = with_weights(pdeface.load(face), weights, clamp)
     moving = chosen_expressions(value, expressions, out)
+    talking = speaking(visemes, value, out)
     check_outputs(out, [face], SUFFIXES)
     for path in out:
         with report.step(f"writing {path}"):
@@ -81,5 +86,6 @@ def export(
                 quads=quads,
                 expressions=moving[path],
                 openings=openings,
+                visemes=path in talking,
             )
         report.wrote(path)

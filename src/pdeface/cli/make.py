@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
+from pdeface.cli.moves import chosen_expressions, parse_weights, speaking, with_weights
 from pdeface.cli.options import (
     DEFAULT_MESH,
     ClampOption,
@@ -17,6 +17,7 @@ from pdeface.cli.options import (
     OpeningsOption,
     QuietOption,
     SetOption,
+    VisemesOption,
     check_outputs,
     parse_mesh,
 )
@@ -37,7 +38,7 @@ def make(
             "--out",
             metavar="OUT",
             help="File to write; may be repeated. The suffix picks the format: .pdeface, .glb, "
-            ".gltf, .obj, .ply, .stl, or .png for a sheet of pictures from three sides.",
+            ".gltf, .vrm, .obj, .ply, .stl, or .png for a sheet of pictures from three sides.",
         ),
     ],
     photo: Annotated[
@@ -67,6 +68,7 @@ def make(
     set_: SetOption = None,
     clamp: ClampOption = False,
     expressions: ExpressionsOption = None,
+    visemes: VisemesOption = False,
     mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
     openings: OpeningsOption = "cut",
@@ -95,6 +97,7 @@ def make(
 
     shape = with_weights(_shape(person, level), weights, clamp)
     moving = chosen_expressions(shape, expressions, out)
+    talking = speaking(visemes, shape, out)
     check_outputs(out, [photo, points], [*SUFFIXES, *PICTURES])
     report = Report(quiet)
     with report.step("warping the photo onto the uv mesh"):
@@ -113,6 +116,7 @@ def make(
                     join=join,
                     expressions=moving[path],
                     openings=openings,
+                    visemes=path in talking,
                 )
         report.wrote(path)
 

@@ -1,4 +1,4 @@
-"""What ``--set`` and ``--expressions`` say, read and checked before any work is done."""
+"""What ``--set``, ``--expressions`` and ``--visemes`` say, checked before any work is done."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pdeface.errors import InputError
 if TYPE_CHECKING:
     from pdeface import Face
 
-__all__ = ["chosen_expressions", "parse_weights", "with_weights"]
+__all__ = ["chosen_expressions", "parse_weights", "speaking", "with_weights"]
 
 
 def parse_weights(texts: Iterable[str] | None) -> dict[str, float]:
@@ -68,6 +68,24 @@ def chosen_expressions(
             f"{', '.join(map(str, outputs))}; add one, or leave the option out"
         )
     return {out: names if out in moving else () for out in outputs}
+
+
+def speaking(visemes: bool, face: Face, outputs: Sequence[Path]) -> frozenset[Path]:
+    """The output files that get visemes: those that can, if they are asked for.
+
+    Raises:
+        InputError: visemes and no such output, or a face that cannot make them.
+    """
+    from pdeface.formats import SUFFIXES_THAT_MOVE, target_names
+
+    able = frozenset(out for out in outputs if out.suffix.lower() in SUFFIXES_THAT_MOVE)
+    if visemes and not able:
+        raise InputError(
+            f"--visemes needs an output that ends in {' or '.join(SUFFIXES_THAT_MOVE)}, got "
+            f"{', '.join(map(str, outputs))}; add one, or leave the option out"
+        )
+    target_names(face, (), visemes)
+    return able if visemes else frozenset()
 
 
 def _asked_for(text: str | None) -> Sequence[str] | None:

@@ -22,6 +22,7 @@ __all__ = [
     "OpeningsOption",
     "QuietOption",
     "SetOption",
+    "VisemesOption",
     "check_outputs",
     "parse_mesh",
     "parse_size",
@@ -57,8 +58,15 @@ ExpressionsOption = Annotated[
     typer.Option(
         "--expressions",
         metavar="all|none|NAME,...",
-        help="Which expressions a .glb or .gltf can make, as morph targets; by default all that "
-        "the face can.",
+        help="Which expressions a .glb, .gltf or .vrm can make, as morph targets; by default all "
+        "that the face can.",
+    ),
+]
+VisemesOption = Annotated[
+    bool,
+    typer.Option(
+        "--visemes",
+        help="The fifteen visemes of speech, viseme_sil to viseme_U, as further morph targets.",
     ),
 ]
 Openings = Literal["cut", "none"]

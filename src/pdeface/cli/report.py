@@ -41,10 +41,15 @@ class Report:
         with console.status(Text(what)) as status:
             yield lambda text: status.update(Text(text))
 
-    def wrote(self, path: Path) -> None:
-        """Tell that a file was written, and how large it is."""
-        if not self._quiet:
-            typer.echo(f"wrote {path} ({size_in_words(path.stat().st_size)})")
+    def wrote(self, *paths: Path) -> None:
+        """Tell that a file was written, or all those of a sequence, and how large they are."""
+        if self._quiet:
+            return
+        size = size_in_words(sum(path.stat().st_size for path in paths))
+        if len(paths) == 1:
+            typer.echo(f"wrote {paths[0]} ({size})")
+        else:
+            typer.echo(f"wrote {paths[0]} to {paths[-1].name} ({len(paths)} files, {size})")
 
 
 def size_in_words(count: int) -> str:

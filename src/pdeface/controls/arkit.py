@@ -7,12 +7,13 @@ tongue.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from types import MappingProxyType
 
 from pdeface.controls.control import Control
 
-__all__ = ["ARKIT", "EXPRESSIONS", "SOURCES"]
+__all__ = ["ARKIT", "EXPRESSIONS", "EYE_RANGE", "SOURCES"]
 
 _BY_GROUP = {
     "eyes": "eyeBlink eyeLookDown eyeLookIn eyeLookOut eyeLookUp eyeSquint eyeWide",
@@ -50,6 +51,9 @@ def _in_order() -> tuple[str, ...]:
 
 ARKIT = _in_order()
 """All 52 names in ARKit's order."""
+
+EYE_RANGE = math.radians(30.0)
+"""How far an eye turns, radians, at weight 1 of eyeLookUp, Down, In or Out."""
 
 _GROUP = {n: g for g, stems in _BY_GROUP.items() for stem in stems.split() for n in _names(stem)}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from pdeface.errors import InputError
@@ -9,23 +10,37 @@ from pdeface.face import Face, Openings
 from pdeface.files import PathLike
 from pdeface.formats._animation import Animation
 from pdeface.formats._sample import sample
-from pdeface.formats._targets import Expressions, MorphTargets, expression_names
+from pdeface.formats._targets import Expressions, MorphTargets, expression_names, target_names
 from pdeface.formats.gltf import write_glb, write_gltf
 from pdeface.formats.obj import write_obj
+from pdeface.formats.obj_sequence import export_sequence
 from pdeface.formats.ply import write_ply
 from pdeface.formats.stl import write_stl
+from pdeface.formats.vrm import write_vrm
 from pdeface.pde import Join
 
-__all__ = ["SUFFIXES", "SUFFIXES_THAT_MOVE", "Animation", "export", "expression_names"]
+__all__ = [
+    "SUFFIXES",
+    "SUFFIXES_THAT_MOVE",
+    "SUFFIXES_THAT_PLAY",
+    "Animation",
+    "export",
+    "export_sequence",
+    "expression_names",
+    "target_names",
+]
 
-_MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl")
+_MESHES = (".glb", ".gltf", ".vrm", ".obj", ".ply", ".stl")
 _WITH_QUADS = (".obj", ".ply")
 
 SUFFIXES = (*_MESHES, ".pdeface")
 """Suffixes that :func:`export` knows."""
 
-SUFFIXES_THAT_MOVE = (".glb", ".gltf")
+SUFFIXES_THAT_MOVE = (".glb", ".gltf", ".vrm")
 """Those whose files hold expressions as morph targets."""
+
+SUFFIXES_THAT_PLAY = (".glb", ".gltf")
+"""Those whose files hold animations."""
 
 
 def export(
@@ -37,17 +52,18 @@ def export(
     expressions: Expressions = None,
     animation: Animation | None = None,
     openings: Openings = "cut",
+    visemes: bool = False,
 ) -> None:
     """Write ``face`` to ``path`` in the format that its suffix names.
 
-    Metres, +Y up, +Z forward, with the normals of the analytic surface. ``.glb`` and ``.gltf``
-    hold their texture; ``.obj`` and ``.ply`` get theirs beside them, ``me-texture.png`` for
-    ``me.obj``, and ``.obj`` a ``.mtl``; ``.stl`` has none. ``.pdeface`` is :meth:`Face.save`,
-    which no mesh concerns.
+    Metres, +Y up, +Z forward, with the normals of the analytic surface. ``.glb``, ``.gltf`` and
+    ``.vrm`` hold their texture; ``.obj`` and ``.ply`` get theirs beside them, ``me-texture.png``
+    for ``me.obj``, and ``.obj`` a ``.mtl``; ``.stl`` has none. ``.pdeface`` is
+    :meth:`Face.save`, which no mesh concerns.
 
-    In ``.glb`` and ``.gltf`` expressions are morph targets by ARKit's names (docs/export.md), and
-    what the face does at the moment are their default weights. All else that the controls of the
-    face say is part of the mesh, as in the other formats everything is.
+    In ``.glb``, ``.gltf`` and ``.vrm`` expressions are morph targets by ARKit's names
+    (docs/export.md), and what the face does at the moment are their default weights. All else that
+    the controls of the face say is part of the mesh, as in the other formats everything is.
 
     Args:
         face: the face.
@@ -62,11 +78,13 @@ def export(
         animation: what morph targets and head do over time, for ``.glb`` and ``.gltf``. Of its
             expressions those that are no morph target are left out; those it does not name stay
             as the face has them.
+        visemes: the fifteen visemes of speech as further morph targets, ``viseme_sil``, ...
+            ``viseme_U``.
 
     Raises:
         InputError: an unknown suffix or expression, a mesh, join or expression that the face
-            cannot have, quads, expressions or an animation in a format without them, an animation
-            of nothing that the file has, or a place that cannot be written.
+            cannot have, quads, expressions, visemes or an animation in a format without them, an
+            animation of nothing that the file has, or a place that cannot be written.
         MissingExtraError: the face has a texture and Pillow is not installed.
 
     Example:
@@ -78,27 +96,19 @@ def export(
             f"expected a file name that ends in {', '.join(SUFFIXES)}, got {Path(path).name!r}; "
             "the suffix picks the format"
         )
-    if expressions and suffix not in SUFFIXES_THAT_MOVE:
-        raise InputError(
-            f"expressions can be written to {' and '.join(SUFFIXES_THAT_MOVE)}, not to {suffix}; "
-            "leave them out"
-        )
-    if animation is not None and suffix not in SUFFIXES_THAT_MOVE:
-        raise InputError(
-            f"an animation can be written to {' and '.join(SUFFIXES_THAT_MOVE)}, not to {suffix}; "
-            "leave it out"
-        )
+    _check(suffix, expressions, "expressions", SUFFIXES_THAT_MOVE, "them")
+    _check(suffix, visemes, "visemes", SUFFIXES_THAT_MOVE, "them")
+    _check(suffix, animation is not None, "an animation", SUFFIXES_THAT_PLAY, "it")
     if suffix == ".pdeface":
         face.save(path)
         return
-    if quads and suffix not in _WITH_QUADS:
-        raise InputError(
-            f"quads can be written to {' and '.join(_WITH_QUADS)}, not to {suffix}; "
-            "leave quads out for triangles"
-        )
+    _check(suffix, quads, "quads", _WITH_QUADS, "quads", " for triangles")
     if suffix in SUFFIXES_THAT_MOVE:
-        targets = _morph_targets(face, mesh, join, expressions, openings)
-        (write_glb if suffix == ".glb" else write_gltf)(face, targets, path, animation)
+        targets = _morph_targets(face, mesh, join, expressions, visemes, openings)
+        if suffix == ".vrm":
+            write_vrm(face, targets, path)
+        else:
+            (write_glb if suffix == ".glb" else write_gltf)(face, targets, path, animation)
         return
     surface = sample(face, mesh, join, openings)
     if suffix == ".obj":
@@ -109,15 +119,28 @@ def export(
         write_stl(surface, path)
 
 
+def _check(
+    suffix: str, asked: object, what: str, able: Sequence[str], it: str, instead: str = ""
+) -> None:
+    """Refuse what was asked of a format that has no place for it."""
+    if asked and suffix not in able:
+        raise InputError(
+            f"{what} can be written to {', '.join(able[:-1])} and {able[-1]}, not to {suffix}; "
+            f"leave {it} out{instead}"
+        )
+
+
 def _morph_targets(
     face: Face,
     mesh: tuple[int, int],
     join: Join,
     expressions: Expressions,
+    visemes: bool,
     openings: Openings,
 ) -> MorphTargets:
     """The face at rest in the expressions that a file can move, and these expressions."""
     names = expression_names(face, expressions)
-    weights = tuple(face.weights.get(name, 0.0) for name in names)
     resting = face.with_weights(dict.fromkeys(names, 0.0))
-    return MorphTargets(resting, sample(resting, mesh, join, openings), join, names, weights)
+    every = target_names(face, names, visemes)
+    weights = tuple(face.weights.get(name, 0.0) for name in every)
+    return MorphTargets(resting, sample(resting, mesh, join, openings), join, every, weights)

@@ -1,8 +1,4 @@
-"""Animation: weights of the morph targets and the rotation of the head over time, as one glTF clip.
-
-The head turns about a point in the neck. A glTF node turns about its own origin, so that the head
-is a node there, and the face a node below it that is moved back by as much.
-"""
+"""Animation: weights of the morph targets and rotation of the head over time, as a glTF clip."""
 
 from __future__ import annotations
 
@@ -18,12 +14,9 @@ from pdeface.controls import ARKIT
 from pdeface.errors import InputError
 from pdeface.formats._gltf_builder import GltfBuilder
 
-__all__ = ["PIVOT", "Animation", "add_animation", "add_head", "quaternions"]
+__all__ = ["Animation", "add_animation", "quaternions"]
 
 Float64 = NDArray[np.float64]
-
-PIVOT = (0.0, -0.09, 0.0)
-"""Where the head turns, metres: in the neck, below and behind the face."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,19 +47,6 @@ class Animation:
         if self.head is not None:
             head = _numbers(self.head, "head", (len(times), 3))
             object.__setattr__(self, "head", head)
-
-
-def add_head(document: GltfBuilder, **face: Any) -> tuple[int, int]:
-    """Add a node that turns about the neck, and below it one with these properties, the face.
-
-    At rest the face is where it would be without the other.
-
-    Returns:
-        The node of the head and that of the face.
-    """
-    back = [0.0 - coordinate for coordinate in PIVOT]
-    below = document.add("nodes", **face, translation=back)
-    return document.add("nodes", name="head", translation=list(PIVOT), children=[below]), below
 
 
 def add_animation(

@@ -9,27 +9,37 @@ from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
 from pdeface.images import media_type
 
-__all__ = ["write_beside", "write_texture_beside"]
+__all__ = ["name_beside", "texture_beside", "write_beside", "write_texture_beside"]
 
 _SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
 
 
-def write_beside(path: PathLike, ending: str, data: bytes) -> str:
-    """Write ``data`` beside ``path`` and return the file's name: the stem and ``ending``.
+def name_beside(path: PathLike, ending: str) -> str:
+    """The name of a file beside ``path``: the stem and ``ending``.
 
-    The name has no white space, at which readers of OBJ and PLY would split it.
+    It has no white space, at which readers of OBJ and PLY would split it.
     """
-    name = re.sub(r"\s+", "_", Path(path).stem) + ending
-    atomic_write(Path(path).with_name(name), data)
-    return name
+    return re.sub(r"\s+", "_", Path(path).stem) + ending
 
 
-def write_texture_beside(path: PathLike, face: Face) -> str | None:
-    """Write the face's texture beside ``path``, if it has one, and return the file's name.
+def texture_beside(path: PathLike, face: Face) -> tuple[str, bytes] | None:
+    """Name and content of the file for the face's texture beside ``path``, if it has one.
 
     ``me.obj`` gets ``me-texture.png``: a ``me.png`` there may be the photo that it came from.
     """
     data = face.texture_file()
     if data is None:
         return None
-    return write_beside(path, f"-texture{_SUFFIXES[media_type(data)]}", data)
+    return name_beside(path, f"-texture{_SUFFIXES[media_type(data)]}"), data
+
+
+def write_beside(path: PathLike, name: str, data: bytes) -> str:
+    """Write ``data`` under this name beside ``path``, and return the name."""
+    atomic_write(Path(path).with_name(name), data)
+    return name
+
+
+def write_texture_beside(path: PathLike, face: Face) -> str | None:
+    """Write the face's texture beside ``path``, if it has one, and return the file's name."""
+    texture = texture_beside(path, face)
+    return None if texture is None else write_beside(path, *texture)

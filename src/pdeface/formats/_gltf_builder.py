@@ -30,10 +30,16 @@ _LARGEST_GLB = 0xFFFFFFFF
 
 
 class GltfBuilder:
-    """Collects the objects of a glTF 2.0 file; each ``add`` returns the index of its object."""
+    """Collects the objects of a glTF 2.0 file; each ``add`` returns the index of its object.
+
+    Attributes:
+        asset: what the file says of itself.
+        extensions: what it says beyond glTF, by name of the extension.
+    """
 
     def __init__(self, generator: str) -> None:
         self.asset: Json = {"version": "2.0", "generator": generator}
+        self.extensions: Json = {}
         self._lists: dict[str, list[Json]] = {}
         self._chunks: list[bytes] = []
         self._length = 0
@@ -158,6 +164,8 @@ class GltfBuilder:
 
     def _json(self, buffer: Json) -> bytes:
         document = {"asset": self.asset, "scene": 0, **self._lists, "buffers": [buffer]}
+        if self.extensions:
+            document |= {"extensionsUsed": [*self.extensions], "extensions": self.extensions}
         return json.dumps(document, separators=(",", ":"), allow_nan=False).encode("ascii")
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pdeface.controls.neck import PIVOT, rotations
 from pdeface.errors import InputError
 from pdeface.face import Face, Openings
 from pdeface.pde import Join
@@ -49,8 +50,20 @@ class Sample:
         return np.stack([self.texcoords[:, 0], 1.0 - self.texcoords[:, 1]], axis=1)
 
 
-def sample(face: Face, mesh: tuple[int, int], join: Join, openings: Openings = "cut") -> Sample:
+def sample(
+    face: Face,
+    mesh: tuple[int, int],
+    join: Join,
+    openings: Openings = "cut",
+    head: NDArray[np.float64] | None = None,
+) -> Sample:
     """Sample ``face`` on a uv mesh of ``mesh = (rows, columns)``.
+
+    Args:
+        face: the face.
+        mesh: size of the uv mesh.
+        join: how its patches meet.
+        head: (3,) yaw, pitch and roll, radians, by which the head is turned about the neck.
 
     Raises:
         InputError: no such mesh, or a surface outside the range of single precision.
@@ -65,6 +78,8 @@ def sample(face: Face, mesh: tuple[int, int], join: Join, openings: Openings = "
             "(1081, 641) is as fine as any screen"
         )
     dense = face.mesh(rows, columns, join=join, openings=openings)
+    if head is not None:
+        dense = dense.turned(rotations(head), PIVOT)
     with np.errstate(over="ignore"):
         vertices = dense.vertices.astype(np.float32)
     if not np.isfinite(vertices).all():

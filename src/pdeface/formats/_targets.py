@@ -7,21 +7,23 @@ weights. Normals are not linear: they are exact with one expression at weight 0 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.controls import ARKIT, COMPANY, CONTROLS, Displacement, expressed, person, slits
+from pdeface.controls.visemes import VISEMES
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.formats._sample import Sample
 from pdeface.pde import Join
 from pdeface.sampler import sampler
 
-__all__ = ["Expressions", "MorphTargets", "expression_names"]
+__all__ = ["Expressions", "MorphTargets", "expression_names", "target_names"]
 
 Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
@@ -66,16 +68,28 @@ def expression_names(face: Face, expressions: Expressions) -> tuple[str, ...]:
     return names
 
 
+def target_names(face: Face, expressions: Sequence[str], visemes: bool) -> tuple[str, ...]:
+    """The morph targets of a file: these expressions, and after them the visemes if asked for.
+
+    Raises:
+        InputError: visemes, and a face that cannot make them.
+    """
+    if not visemes:
+        return tuple(expressions)
+    slits(face.curves.shape[0])
+    return (*expressions, *VISEMES)
+
+
 @dataclass(frozen=True, eq=False)
 class MorphTargets:
-    """Expressions as displacements of the vertices and normals of a sampled face.
+    """Expressions and visemes as displacements of the vertices and normals of a sampled face.
 
     Attributes:
         face: without these expressions.
         surface: the face sampled.
         join: how its patches meet.
-        names: the expressions.
-        weights: of the expressions, in the order of their names.
+        names: the expressions and visemes.
+        weights: of these, in the order of their names.
 
     Raises:
         InputError: more than a gigabyte of displacements.
@@ -92,16 +106,16 @@ class MorphTargets:
         size = 24 * len(self.names) * rows * columns
         if size > _LARGEST:
             raise InputError(
-                f"{len(self.names)} expressions on a mesh of {rows} x {columns} would take up to "
+                f"{len(self.names)} morph targets on a mesh of {rows} x {columns} would take up to "
                 f"{size / 2**30:.1f} GiB, and {_LARGEST >> 30} is the most; "
                 "choose a coarser mesh, or fewer expressions"
             )
 
     def differences(self) -> Iterator[tuple[Float32, Float32]]:
-        """(V, 3) positions, metres, and (V, 3) normals that each expression adds."""
+        """(V, 3) positions, metres, and (V, 3) normals that each target adds."""
         shape, count = self.face.curves.shape, len(self.surface.vertices)
         own = self.face.displacement
-        moved = list(self._moved(own))
+        moved = self.moved
         parts = self.join == "smooth"
         base = _layers(self.face.curves.points + own.smooth, own.parting, parts)
         points = np.array([_layers(one.smooth, one.parting, parts) for one in moved])
@@ -117,8 +131,16 @@ class MorphTargets:
             for position, normal in zip(positions, normals, strict=True):
                 yield position.astype(np.float32), self._turned(normal)
 
-    def _moved(self, own: Displacement) -> Iterator[Displacement]:
-        """What each expression adds to the curves at full weight."""
+    @cached_property
+    def moved(self) -> list[Displacement]:
+        """What each target adds to the curves at full weight."""
+        return list(self._moved())
+
+    def controls(self, name: str) -> Mapping[str, float]:
+        """The expressions that a target stands for."""
+        return VISEMES.get(name, {name: 1.0})
+
+    def _moved(self) -> Iterator[Displacement]:
         face = self.face
         rest = face.curves.points + person(face.weights, face.curves.shape)
         kept = {n: w for n, w in face.weights.items() if CONTROLS[n].kind == "expression"}
@@ -126,7 +148,7 @@ class MorphTargets:
         for name in self.names:
             company = {**kept, **COMPANY.get(name, {})}
             alone = expressed(rest, company, face.a, face.modes) if company != kept else before
-            after = expressed(rest, {**company, name: 1.0}, face.a, face.modes)
+            after = expressed(rest, {**company, **self.controls(name)}, face.a, face.modes)
             yield Displacement(after.smooth - alone.smooth, after.parting - alone.parting)
 
     def _turned(self, normals: NDArray[np.floating]) -> Float32:

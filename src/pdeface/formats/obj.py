@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
-from pdeface.formats._companion import write_beside, write_texture_beside
+from pdeface.formats._companion import name_beside, write_beside, write_texture_beside
 from pdeface.formats._sample import Sample
 from pdeface.formats._shared import GENERATOR, SKIN
 
-__all__ = ["write_obj"]
+__all__ = ["material", "obj_text", "write_obj"]
 
 
 def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True) -> None:
@@ -22,9 +22,14 @@ def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True
     Raises:
         InputError: a place that cannot be written.
     """
+    texture = write_texture_beside(path, face)
+    library = write_beside(path, name_beside(path, ".mtl"), material(texture))
+    atomic_write(path, obj_text(surface, library, quads=quads))
+
+
+def obj_text(surface: Sample, library: str, *, quads: bool = True) -> bytes:
+    """The content of an OBJ whose material lies in the file ``library`` beside it."""
     cells = surface.quads if quads else surface.triangles
-    material = _material(write_texture_beside(path, face))
-    library = write_beside(path, ".mtl", material.encode())
     text = [
         f"# {GENERATOR}, metres, +Y up, +Z forward\nmtllib {library}\no face\n",
         _lines("v %.9g %.9g %.9g\n", surface.vertices),
@@ -34,7 +39,7 @@ def write_obj(face: Face, surface: Sample, path: PathLike, *, quads: bool = True
         _faces(cells),
         _faces(surface.fans) if quads else "",
     ]
-    atomic_write(path, "".join(text).encode())
+    return "".join(text).encode()
 
 
 def _faces(cells: NDArray[np.int32]) -> str:
@@ -48,10 +53,11 @@ def _lines(pattern: str, values: NDArray[np.generic]) -> str:
     return pattern * len(values) % tuple(values.ravel().tolist())
 
 
-def _material(texture: str | None) -> str:
+def material(texture: str | None) -> bytes:
+    """The content of an MTL: skin that does not shine, with a texture of this name or none."""
     lines = [f"# {GENERATOR}", "newmtl face", "Ka 0 0 0", "Ks 0 0 0", "d 1", "illum 1"]
     if texture is None:
         lines.append("Kd {:.3f} {:.3f} {:.3f}".format(*SKIN))
     else:
         lines += ["Kd 1 1 1", f"map_Kd {texture}"]
-    return "\n".join([*lines, ""])
+    return "\n".join([*lines, ""]).encode()

@@ -1,12 +1,13 @@
 """Motion: tracks of expression weights over time, read from recordings or built in."""
 
+from pdeface.controls.presets import VRM_PRESETS
+from pdeface.controls.visemes import VISEMES
 from pdeface.motion.clips import CLIPS, clip
+from pdeface.motion.frames import Frames
 from pdeface.motion.livelink import read_livelink
 from pdeface.motion.names import ARKIT_NAMES
 from pdeface.motion.reading import SUFFIXES, read, write
 from pdeface.motion.track import Pose, Track
-from pdeface.motion.visemes import VISEMES
-from pdeface.motion.vrm import VRM_PRESETS
 
 __all__ = [
     "ARKIT_NAMES",
@@ -14,6 +15,7 @@ __all__ = [
     "SUFFIXES",
     "VISEMES",
     "VRM_PRESETS",
+    "Frames",
     "Pose",
     "Track",
     "clip",

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
+
+from pdeface.controls.arkit import EYE_RANGE
 
 __all__ = ["EYE_RANGE", "eye_angles", "look_weights"]
 
 FloatArray = NDArray[np.float64]
-
-EYE_RANGE = math.radians(30.0)
-"""How far an eye turns, radians, at weight 1 of eyeLookUp, Down, In or Out."""
 
 # Below this weight (a degree and a half) a look sets in gently, so that weights have no corner
 # where the eyes pass straight ahead and one of a pair takes over from the other.

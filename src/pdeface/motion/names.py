@@ -1,14 +1,11 @@
-"""The 52 ARKit expression names, and what is said of a name that is not among them."""
+"""The names that a track may have: of the 52 ARKit expressions, and of angles."""
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable
-
 from pdeface.controls import ARKIT
-from pdeface.errors import InputError
+from pdeface.controls.naming import both_sides, did_you_mean
 
-__all__ = ["ANGLE_NAMES", "ARKIT_NAMES", "PAIRED", "both_sides", "did_you_mean"]
+__all__ = ["ANGLE_NAMES", "ARKIT_NAMES", "both_sides", "did_you_mean"]
 
 ARKIT_NAMES = ARKIT
 """The blendshapes of Apple's ARKit, in its order; left and right are the subject's."""
@@ -17,39 +14,3 @@ ANGLE_NAMES = tuple(
     part + angle for part in ("head", "leftEye", "rightEye") for angle in ("Yaw", "Pitch", "Roll")
 )
 """The nine angles that a recording may have: of the head, the left and the right eye."""
-
-PAIRED = frozenset(
-    name.removesuffix("Left")
-    for name in ARKIT_NAMES
-    if name.endswith("Left") and name not in ("jawLeft", "mouthLeft")
-)
-"""Names, without their side, of the blendshapes that there are two of."""
-
-
-def both_sides(**weights: float) -> dict[str, float]:
-    """Weights by ARKit name, from names that leave the side out: ``mouthSmile`` means both.
-
-    A name that is an ARKit name already (``jawOpen``, ``eyeBlinkLeft``) is kept.
-    """
-    sided: dict[str, float] = {}
-    for name, weight in weights.items():
-        if name in PAIRED:
-            sided[f"{name}Left"] = sided[f"{name}Right"] = weight
-        elif name in ARKIT_NAMES:
-            sided[name] = weight
-        else:
-            raise InputError(
-                f"expected an ARKit name, got {name!r}; {did_you_mean(name, ARKIT_NAMES)}"
-            )
-    return sided
-
-
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Advice on an unknown name: the nearest ones, or all of them if none is near."""
-    names = {each.lower(): each for each in known}
-    near = [names[each] for each in difflib.get_close_matches(name.lower(), names, n=3)]
-    if near:
-        return f"did you mean {' or '.join(near)}?"
-    if len(names) <= 20:
-        return f"use one of {', '.join(names.values())}"
-    return "use an ARKit name such as jawOpen or eyeBlinkLeft"

@@ -16,10 +16,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pdeface.controls.visemes import VISEMES
 from pdeface.errors import InputError
 from pdeface.motion import easing
 from pdeface.motion.names import did_you_mean
-from pdeface.motion.visemes import VISEMES
 
 __all__ = ["mouth_weights"]
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pdeface.anatomy import textures
+from pdeface.controls.neck import PIVOT, rotations
 from pdeface.face import Face
 from pdeface.parts import FaceParts
 from pdeface.pictures.camera import Camera
@@ -16,21 +18,33 @@ from pdeface.pictures.solid import Solid
 __all__ = ["inside"]
 
 
-def inside(face: Face, camera: Camera, rig: Rig, *, albedo: Any = None) -> list[Solid]:
+def inside(
+    face: Face,
+    camera: Camera,
+    rig: Rig,
+    *,
+    albedo: Any = None,
+    head: NDArray[np.float64] | None = None,
+) -> list[Solid]:
     """Eyes and mouth; nothing for a face that has no lids.
 
     Args:
         albedo: (3,) linear reflectance of everything, for clay; None for the parts' textures.
+        head: (3,) yaw, pitch and roll of the head, radians.
     """
     if not face.has_lids:
         return []
     parts = FaceParts(face)
-    return [_solid(parts, name, camera, rig, albedo) for name in parts.parts]
+    turn = np.eye(3) if head is None else rotations(head)
+    return [_solid(parts, name, camera, rig, albedo, turn) for name in parts.parts]
 
 
-def _solid(parts: FaceParts, name: str, camera: Camera, rig: Rig, albedo: Any) -> Solid:
+def _solid(
+    parts: FaceParts, name: str, camera: Camera, rig: Rig, albedo: Any, turn: NDArray[np.float64]
+) -> Solid:
     part, curves = parts.parts[name], parts.curves(name)
-    vertices, normals = part.positions(curves), part.normals(curves)
+    vertices = (part.positions(curves) - PIVOT) @ turn.T + PIVOT
+    normals = part.normals(curves) @ turn.T
     white = np.ones(3) if albedo is None else np.asarray(albedo, dtype=np.float64)
     colors = light_up(vertices, normals, white, camera, rig)
     if albedo is not None:

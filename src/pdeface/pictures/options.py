@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
+from pdeface.controls.neck import PIVOT, rotations
 from pdeface.errors import InputError
 from pdeface.face import Face, Openings
 from pdeface.pde import Join
@@ -35,6 +37,8 @@ class Options:
         loops: show the closed curves, back halves included (style ``curves``).
         height: height of the picture in pixels, by which lines get their width.
         openings: ``"cut"``, or ``"none"`` for the paper's closed face.
+        head: (3,) yaw, pitch and roll of the head, radians, in the styles that draw nothing but
+            the uv mesh.
     """
 
     mesh: tuple[int, int] | None = None
@@ -43,6 +47,7 @@ class Options:
     loops: bool = False
     height: int = 1000
     openings: Openings = "cut"
+    head: NDArray[np.float64] | None = None
 
     @property
     def is_cut(self) -> bool:
@@ -52,7 +57,8 @@ class Options:
     def sample(self, face: Face, otherwise: tuple[int, int] = FINE_MESH) -> FaceMesh:
         """The face on the uv mesh asked for."""
         rows, columns = self.mesh or otherwise
-        return face.mesh(rows, columns, join=self.join, openings=self.openings)
+        mesh = face.mesh(rows, columns, join=self.join, openings=self.openings)
+        return mesh if self.head is None else mesh.turned(rotations(self.head), PIVOT)
 
     def uv_mesh(self, face: Face, otherwise: tuple[int, int] = FINE_MESH) -> UVMesh:
         """The uv mesh of :meth:`sample`."""

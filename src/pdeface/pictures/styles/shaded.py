@@ -22,4 +22,7 @@ def shaded(face: Face, camera: Camera, options: Options) -> list[Solid]:
     """The surface in clay under studio light, or under raking light to judge its fairness."""
     rig = rig_named(options.light or "studio")
     face_itself = skin(options.sample(face), CLAY, camera, rig)
-    return [*face_itself, *(inside(face, camera, rig, albedo=CLAY) if options.is_cut else [])]
+    return [
+        *face_itself,
+        *(inside(face, camera, rig, albedo=CLAY, head=options.head) if options.is_cut else []),
+    ]

@@ -21,7 +21,7 @@ def textured(face: Face, camera: Camera, options: Options) -> list[Solid]:
     """The texture under nearly even light: a photo brings its own."""
     rig = rig_named(options.light or "soft")
     face_itself = skin(options.sample(face), (1.0, 1.0, 1.0), camera, rig, _opaque(face.texture))
-    return [*face_itself, *(inside(face, camera, rig) if options.is_cut else [])]
+    return [*face_itself, *(inside(face, camera, rig, head=options.head) if options.is_cut else [])]
 
 
 def _opaque(texture: NDArray[np.uint8] | None) -> NDArray[np.uint8] | None:

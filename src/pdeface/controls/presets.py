@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from pdeface.motion.names import both_sides
-from pdeface.motion.visemes import VISEMES
+from pdeface.controls.naming import both_sides
+from pdeface.controls.visemes import VISEMES
 
 __all__ = ["VRM_PRESETS"]
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from pdeface.motion.names import both_sides
+from pdeface.controls.naming import both_sides
 
 __all__ = ["VISEMES"]
 

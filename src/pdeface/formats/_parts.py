@@ -1,0 +1,93 @@
+"""The parts behind the openings of a face, sampled for a file, with the face's morph targets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.anatomy import Part, textures
+from pdeface.formats._targets import MorphTargets
+from pdeface.parts import FaceParts
+
+__all__ = ["PartSample", "sampled_parts"]
+
+Float32 = NDArray[np.float32]
+
+# A part is sampled as finely as the face is: its own uv mesh goes with a face of so many rows, and
+# below a quarter of that a tooth would be a block.
+_ROWS, _COARSEST = 109, 0.25
+_FEWEST_ROWS, _FEWEST_COLUMNS = 5, 9
+
+
+@dataclass(frozen=True, eq=False)
+class PartSample:
+    """One part on its uv mesh.
+
+    Attributes:
+        name: such as ``"left_eyeball"``.
+        material: such as ``"eye"``.
+        vertices, normals, texcoords: (V, 3), (V, 3) and (V, 2).
+        triangles: (T, 3) indices.
+        differences: what each target adds to positions and normals, (V, 3) each; None for a target
+            that leaves the part where it is.
+        texture: (H, W, 3) uint8.
+    """
+
+    name: str
+    material: str
+    vertices: Float32
+    normals: Float32
+    texcoords: Float32
+    triangles: NDArray[np.int32]
+    differences: list[tuple[Float32, Float32] | None]
+    texture: NDArray[np.uint8]
+
+
+def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
+    """The parts of a face that has openings; none of one that has not."""
+    if not targets.surface.uv_mesh.cuts:
+        return
+    parts = FaceParts(targets.face)
+    detail = min(1.0, max(_COARSEST, targets.surface.uv_mesh.rows / _ROWS))
+    for name, part in parts.parts.items():
+        yield _sampled(targets, parts, _sized(part, detail), name)
+
+
+def _sized(part: Part, detail: float) -> Part:
+    rows = max(_FEWEST_ROWS, round(part.rows * detail))
+    return replace(part, rows=rows, columns=max(_FEWEST_COLUMNS, round(part.columns * detail)))
+
+
+def _sampled(targets: MorphTargets, parts: FaceParts, part: Part, name: str) -> PartSample:
+    curves = parts.curves(name)
+    normals = part.normals(curves)
+    differences: list[tuple[Float32, Float32] | None] = []
+    for target, moved in zip(targets.names, targets.moved, strict=True):
+        by = parts.moved(name, moved, targets.controls(target))
+        if not np.abs(by).max() > _STILL:
+            differences.append(None)
+            continue
+        turned = part.normals(curves + by) - normals
+        differences.append((part.positions(by).astype(np.float32), turned.astype(np.float32)))
+    return PartSample(
+        name,
+        part.material,
+        part.positions(curves).astype(np.float32),
+        _unit(normals),
+        part.grid.texcoords.astype(np.float32),
+        part.grid.triangles,
+        differences,
+        textures.texture(name),
+    )
+
+
+_STILL = 1e-6
+
+
+def _unit(normals: NDArray[np.float64]) -> Float32:
+    """The normals; where the surface is pinched to a point and has none, +Z."""
+    missing = np.linalg.norm(normals, axis=1) < 0.5
+    return np.where(missing[:, None], [0.0, 0.0, 1.0], normals).astype(np.float32)
