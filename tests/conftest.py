@@ -37,3 +37,16 @@ def shared_data() -> Path:
     if IN_CI:
         pytest.fail(message)
     pytest.skip(message)
+
+
+@pytest.fixture(scope="session")
+def ffmpeg() -> str:
+    """The program that writes films."""
+    try:
+        import imageio_ffmpeg
+    except ImportError:
+        missing = "imageio-ffmpeg is not installed; run: pip install '.[video]'"
+        if IN_CI:
+            pytest.fail(missing)
+        pytest.skip(missing)
+    return str(imageio_ffmpeg.get_ffmpeg_exe())

@@ -213,8 +213,7 @@ def test_a_mesh_for_each_frame(pdeface_command, face_file, blink_file, tmp_path)
     assert not (out.parent / "face.obj").exists()
 
 
-def test_a_film(pdeface_command, face_file, tmp_path) -> None:
-    pytest.importorskip("imageio_ffmpeg")
+def test_a_film(pdeface_command, ffmpeg, face_file, tmp_path) -> None:
     out = tmp_path / "a.mp4"
     words = ["animate", face_file, "blink", "-o", out, "--rate", "4", "--mesh", "28x41"]
     outcome = pdeface_command(*words, "--size", "64x80", "--view", "35", "--style", "uvmesh")

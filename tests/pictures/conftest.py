@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 
@@ -35,16 +33,3 @@ def painted(head: Face) -> Face:
     texture[28:44, 8:24] = (30, 60, 220)
     texture[28:44, 40:56] = (220, 40, 30)
     return head.with_texture(texture)
-
-
-@pytest.fixture(scope="session")
-def ffmpeg() -> str:
-    """The program that writes films."""
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        missing = "imageio-ffmpeg is not installed; run: pip install '.[video]'"
-        if os.environ.get("CI", "").lower() == "true":
-            pytest.fail(missing)
-        pytest.skip(missing)
-    return str(imageio_ffmpeg.get_ffmpeg_exe())
