@@ -61,7 +61,10 @@ class Performer:
         dtype: DTypeLike = np.float32,
     ) -> None:
         self.face, self.mesh, self.names = face, mesh, ARKIT
-        self._columns = [i for i, name in enumerate(ARKIT) if name in CONTROLS]
+        columns = [i for i, name in enumerate(ARKIT) if name in CONTROLS]
+        # Reading a slice takes no time; a list would.
+        first = slice(len(columns))
+        self._columns = first if columns == list(range(len(columns))) else columns
         self._own = np.array([face.weights.get(name, 0.0) for name in ARKIT])
         parts = join == "smooth"
         shape = face.curves.shape
@@ -77,7 +80,7 @@ class Performer:
             dtype=dtype,
         )
         still = {name: w for name, w in face.weights.items() if name not in ARKIT}
-        moved = [_layers({ARKIT[i]: 1.0}, shape, parts) for i in self._columns]
+        moved = [_layers({ARKIT[i]: 1.0}, shape, parts) for i in columns]
         base = _layers(still, shape, parts)
         base[: shape[0]] += face.curves.points
         self._basis = ShapeBasis(evaluator, np.stack([*moved, base]))
@@ -124,10 +127,10 @@ def _in_range(weights: Any) -> Array:
             f"got {frames.dtype} of shape {frames.shape}; see Performer.names"
         )
     # Not written the other way round: a nan is in no range.
-    if frames.size and not (frames.min() >= 0.0 and frames.max() <= 1.0):
-        raise InputError(
-            f"weights lie in [0, 1], got some from {frames.min():g} to {frames.max():g}; clip them"
-        )
+    flat = frames.reshape(-1)
+    if flat.size and not (np.minimum.reduce(flat) >= 0.0 and np.maximum.reduce(flat) <= 1.0):
+        low, high = flat.min(), flat.max()
+        raise InputError(f"weights lie in [0, 1], got some from {low:g} to {high:g}; clip them")
     return frames
 
 

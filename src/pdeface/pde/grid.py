@@ -168,7 +168,7 @@ class GridEvaluator:
         if out is None:
             return self.empty(*batch)
         shape = (*batch, len(self.u), len(self.v), 3)
-        if out.shape != shape or out.dtype != self.dtype or not planar(out).flags.c_contiguous:
+        if out.shape != shape or out.dtype != self.dtype or not planar(out).flags.contiguous:
             raise InputError(
                 f"out must be planar memory of shape {shape} and type {self.dtype}, got "
                 f"{out.shape} and {out.dtype}; use what empty() of this evaluator gives"
@@ -213,4 +213,5 @@ def _points_last(planar: Array) -> Array:
 
 def planar(points: Array) -> Array:
     """(3, ...) x, y and z apart, of (..., 3): the memory that an evaluator's results view."""
-    return points.transpose(-1, *range(points.ndim - 1))
+    last = points.ndim - 1
+    return points.transpose(last, *range(last))

@@ -17,10 +17,10 @@ Array = NDArray[np.floating]
 # Nodes up to which one product with the positions of the basis is faster than one with its modes
 # and another with the waves. Measured: 28 x 41 is below, 55 x 81 above.
 SMALL = 2_000
-# Numbers of a frame's results, or of its modes, that are worked on together: the first stay in a
-# processor's second cache, the second in its third.
-CHUNK = 250_000
+# Numbers of modes, and of results made of them, that are worked on together: the first stay in a
+# processor's third cache, the second in its second.
 MODES_CHUNK = 1_000_000
+CHUNK = 250_000
 
 
 class ShapeBasis:
@@ -54,9 +54,10 @@ class ShapeBasis:
             if self._by_vertices
             else evaluator.row_modes(points)
         )
-        # (3, B, numbers), and what the numbers of each member are: (U, V), or (rows, waves).
+        # What the numbers of each member are, (U, V) or (rows, waves), and (B, 3, numbers).
         self._grid = of_each.shape[2:]
-        self._basis = np.ascontiguousarray(of_each.reshape(3, len(points), -1))
+        flat = of_each.reshape(3, len(points), -1).swapaxes(0, 1)
+        self._basis = np.ascontiguousarray(flat)
         self.count = len(points)
         self.dtype = evaluator.dtype
 
@@ -84,17 +85,19 @@ class ShapeBasis:
         frames, places = weights.reshape(-1, self.count), planar(out)
         places = places.reshape(3, len(frames), *places.shape[-2:])
         if self._by_vertices:
-            self._write_by_vertices(frames, places)
+            self._write_sums(frames, places.reshape(3, len(frames), self._nodes))
         else:
             self._write_by_modes(frames, places)
         return out
 
-    def _write_by_vertices(self, frames: Array, places: Array) -> None:
-        places = places.reshape(3, len(frames), self._nodes)
-        step = max(1, CHUNK // self._nodes)
-        for axis, start in np.ndindex(3, -(-len(frames) // step)):
-            some = slice(start * step, (start + 1) * step)
-            np.matmul(frames[some], self._basis[axis], out=places[axis, some])
+    def _write_sums(self, frames: Array, out: Array) -> None:
+        """Write (3, F, numbers) sums of the numbers of the basis."""
+        if len(frames) == 1:
+            # One product for x, y and z: it takes as long as it takes to read the basis.
+            np.dot(frames[0], self._basis.reshape(self.count, -1), out=out.reshape(-1))
+        else:
+            # x, y and z in turn. Bound by arithmetic: in parts that fit a cache it is no faster.
+            np.matmul(frames, self._basis.swapaxes(0, 1), out=out)
 
     def _write_by_modes(self, frames: Array, places: Array) -> None:
         size = self._basis.shape[-1]
@@ -102,8 +105,9 @@ class ShapeBasis:
         buffer = np.empty((3, min(together, len(frames)), size), self.dtype)
         for first in range(0, len(frames), together):
             some = frames[first : first + together]
-            modes = np.matmul(some, self._basis, out=buffer[:, : len(some)])
-            modes = modes.reshape(3, len(some), *self._grid)
+            flat = buffer if len(some) == buffer.shape[1] else np.empty_like(buffer[:, : len(some)])
+            self._write_sums(some, flat)
+            modes = flat.reshape(3, len(some), *self._grid)
             for start in range(0, len(some), each):
                 stop = min(start + each, len(some))
                 place = places[:, first + start : first + stop]
