@@ -82,6 +82,10 @@ class ShapeBasis:
                 f"{weights.shape}; put frames first and weights last"
             )
         out = self._evaluator.memory(weights.shape[:-1], out)
+        if self._by_vertices and weights.ndim == 1:
+            # One product for x, y and z: it takes as long as it takes to read the basis.
+            np.dot(weights, self._basis.reshape(self.count, -1), out=planar(out).reshape(-1))
+            return out
         frames, places = weights.reshape(-1, self.count), planar(out)
         places = places.reshape(3, len(frames), *places.shape[-2:])
         if self._by_vertices:
@@ -91,13 +95,11 @@ class ShapeBasis:
         return out
 
     def _write_sums(self, frames: Array, out: Array) -> None:
-        """Write (3, F, numbers) sums of the numbers of the basis."""
-        if len(frames) == 1:
-            # One product for x, y and z: it takes as long as it takes to read the basis.
-            np.dot(frames[0], self._basis.reshape(self.count, -1), out=out.reshape(-1))
-        else:
-            # x, y and z in turn. Bound by arithmetic: in parts that fit a cache it is no faster.
-            np.matmul(frames, self._basis.swapaxes(0, 1), out=out)
+        """Write (3, F, numbers) sums of the numbers of the basis: x, y and z in turn.
+
+        Bound by arithmetic: in parts that fit a cache it is no faster.
+        """
+        np.matmul(frames, self._basis.swapaxes(0, 1), out=out)
 
     def _write_by_modes(self, frames: Array, places: Array) -> None:
         size = self._basis.shape[-1]

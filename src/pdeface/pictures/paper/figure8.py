@@ -66,7 +66,7 @@ def figure8(face: Face) -> Figure:
             "alone, on a pale surface that hides those of the other side.",
             "The paper shows one exaggerated face; here both ends are shown, with their surfaces.",
             "The ends of the sliders are chosen, so that any of their combinations may be tried "
-            "(2,000 at random fold no cell: docs/benchmarks.md); the paper's are not told.",
+            "(docs/shape-controls.md counts folded cells); the paper's are not told.",
         ],
     )
 
@@ -104,8 +104,7 @@ def moved_by(face: Face) -> FloatArray:
 
 def folded_cells(mesh: FaceMesh) -> int:
     """Cells whose two triangles face opposite ways."""
-    grid = mesh.vertices.reshape(*mesh.grid, 3)
-    a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
+    a, b, c, d = (mesh.vertices[corner] for corner in mesh.quads.T)
     first, second = np.cross(b - a, c - a), np.cross(c - a, d - a)
     return int(((first * second).sum(axis=-1) < 0.0).sum())
 
