@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from benchmarks import combinations, evaluation, startup, warp
+from benchmarks import combinations, evaluation, performance, startup, warp
 
 evaluation.main()
+print()
+performance.main()
 print()
 startup.main()
 print()

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from pdeface.face import Face, load, neutral, random
     from pdeface.formats import export
     from pdeface.pde import PDESurface
+    from pdeface.performer import Performer
     from pdeface.pictures import render
     from pdeface.uvmesh import UVMesh
 
@@ -34,6 +35,7 @@ __all__ = [
     "BoundaryCurves",
     "Face",
     "PDESurface",
+    "Performer",
     "UVMesh",
     "__version__",
     "errors",
@@ -52,6 +54,7 @@ _ROOMS = {
     "BoundaryCurves": "pdeface.curves",
     "Face": "pdeface.face",
     "PDESurface": "pdeface.pde",
+    "Performer": "pdeface.performer",
     "UVMesh": "pdeface.uvmesh",
     "export": "pdeface.formats",
     "load": "pdeface.face",

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import importlib
 import re
 from pathlib import Path
 
@@ -7,20 +8,27 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import pdeface
+from pdeface import texture
+from pdeface.controls.shape import SHAPE_CONTROLS
 from pdeface.curves import BoundaryCurves
 from pdeface.errors import InputError
-from pdeface.face import Face
+from pdeface.face import Face, neutral
 from pdeface.pictures.paper import PAGE, paper
+from pdeface.pictures.paper.diagram import Box, Chart
 from pdeface.pictures.paper.figure1 import four_curves, largest_gap, surfaces
 from pdeface.pictures.paper.figure3 import creases
+from pdeface.pictures.paper.figure4 import ARROWS, boxes
 from pdeface.pictures.paper.figure5 import window_around
 from pdeface.pictures.paper.figure6 import largest_miss
+from pdeface.pictures.paper.figure8 import extremes, folded_cells, moved_by
+from pdeface.pictures.paper.figure9 import BLINK, moved_by_side
 from pdeface.pictures.paper.overlay import Overlay, mesh_lines
 from pdeface.texture import UVTexture, portrait, uv_texture
 
 from .conftest import head_points
 
-NUMBERS = (1, 2, 3, 5, 6)
+NUMBERS = (1, 2, 3, 4, 5, 6, 8, 9)
 
 
 @pytest.fixture(scope="module")
@@ -84,6 +92,90 @@ def test_the_grid_fits_eyes_and_mouth_and_misses_the_rest(steps: UVTexture) -> N
     apart = np.linalg.norm(eyes[1] - eyes[0])
     assert np.abs(placed[1, [1, 3]].mean(axis=0) - eyes.mean(axis=0)).max() < 0.02 * apart
     assert largest_miss(steps) > 0.05 * apart
+
+
+def test_the_flowchart_names_code_that_there_is(steps: UVTexture) -> None:
+    named = [box.code for box in boxes(neutral(), steps).values() if box.code]
+    assert len(named) > 10
+    for code in named:
+        first, *rest = code.split(".")
+        found = getattr(pdeface, first, None) or getattr(texture, first, None)
+        found = found or importlib.import_module(f"pdeface.{first}")
+        for name in rest:
+            fields = getattr(found, "__dataclass_fields__", {})
+            found = fields[name] if name in fields else getattr(found, name)
+
+
+def test_the_flowchart_leads_from_curves_and_photo_to_the_textured_face(steps: UVTexture) -> None:
+    placed = boxes(neutral(), steps)
+    after: dict[str, set[str]] = {name: set() for name in placed}
+    for start, out, end, into in ARROWS:
+        after[start].add(end)
+        assert placed[start].side(out) != placed[end].side(into)
+    assert [name for name, ends in after.items() if not ends] == ["file", "picture"]
+
+    def reached(name: str, seen: frozenset[str] = frozenset()) -> frozenset[str]:
+        for end in after[name] - seen:
+            seen = reached(end, seen | {end})
+        return seen
+
+    for start in ("curves", "photo", "uvmesh"):
+        assert {"face", "file", "picture"} <= reached(start)
+    assert set(placed) == {"photo", "uvmesh"} | reached("curves") | reached("photo")
+
+
+def test_an_arrow_ends_where_its_box_begins() -> None:
+    box = Box("text", "", (150.0, 60.0), (100.0, 40.0), "data")
+    chart = Chart((220, 120))
+    chart.arrow([(20.0, 60.0), box.side("left")])
+    chart.box(box)
+    image = chart.image().astype(int)
+    assert (image[60, 25] < 140).all()
+    assert (image[60, 97] < 140).all()
+    assert image[45, 110].min() < 255
+    assert image[100, 150].tolist() == [255, 255, 255]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_all_sliders_at_their_ends_exaggerate_the_face_and_fold_nothing(sign: float) -> None:
+    face = neutral()
+    weights = {name: sign * end for name, end in extremes(face.curves).items()}
+    assert {abs(end) for end in weights.values()} == {1.0}
+    assert set(weights) == set(SHAPE_CONTROLS)
+    far = face.with_weights(weights)
+    assert moved_by(far).max() > 0.02
+    assert folded_cells(far.mesh()) == folded_cells(far.mesh(109, 161)) == 0
+
+
+def test_no_slider_at_its_other_end_would_change_the_profile_more() -> None:
+    face = neutral()
+    ends = extremes(face.curves)
+
+    def change(weights: dict[str, float]) -> float:
+        """What the best affine map of the profile leaves of the displacement."""
+        before, after = (
+            f.curves.half[..., 1:].reshape(-1, 2)
+            for f in (face, Face(face.with_weights(weights).moved_curves))
+        )
+        design = np.column_stack([np.ones(len(before)), before])
+        return float(np.linalg.lstsq(design, after - before)[1].sum())
+
+    best = change(ends)
+    assert all(change({**ends, name: -end}) <= best for name, end in ends.items())
+
+
+def test_a_folded_cell_is_counted() -> None:
+    mesh = neutral().mesh()
+    assert folded_cells(mesh) == 0
+    mesh.vertices.reshape(28, 41, 3)[10, 20] = mesh.vertices.reshape(28, 41, 3)[10, 23]
+    assert folded_cells(mesh) > 0
+
+
+def test_only_the_right_eye_blinks() -> None:
+    face = neutral()
+    right, left = moved_by_side(face, face.with_weights(BLINK))
+    assert right > 5.0
+    assert left < 0.5
 
 
 def test_a_face_of_other_curves_is_refused(tmp_path: Path, head: Face) -> None:

@@ -21,7 +21,7 @@ def paper(
 ) -> None:
     """Redraw the figures of the paper with data of this project.
 
-    Writes Figs 1, 2, 3, 5 and 6 as PNGs, and a page, README.md, that says point by point what
+    Writes Figs 1 to 6, 8 and 9 as PNGs, and a page, README.md, that says point by point what
     agrees and what differs.
 
     \b

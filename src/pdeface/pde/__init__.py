@@ -3,6 +3,7 @@
 from pdeface.pde.differential import Curvature, curvature, unit_normal
 from pdeface.pde.grid import GridEvaluator
 from pdeface.pde.joins import Continuity, Join
+from pdeface.pde.shape_basis import ShapeBasis
 from pdeface.pde.surface import PDESurface, Side
 
 __all__ = [
@@ -11,6 +12,7 @@ __all__ = [
     "GridEvaluator",
     "Join",
     "PDESurface",
+    "ShapeBasis",
     "Side",
     "curvature",
     "unit_normal",

@@ -18,7 +18,7 @@ from pdeface.pde.stations import choose_stations
 from pdeface.pde.surface import check_parameters
 from pdeface.pde.waves import closed_waves, mirrored_waves
 
-__all__ = ["GridEvaluator", "u_weights"]
+__all__ = ["GridEvaluator", "planar", "u_weights"]
 
 Array = NDArray[np.floating]
 
@@ -114,14 +114,14 @@ class GridEvaluator:
             out: memory from :meth:`empty` to write over.
         """
         points = self._checked(points)
-        out = self._memory(points, out)
+        out = self.memory(points.shape[:-3], out)
         self._write(points, out, None)
         return out
 
     def normals(self, points: Any, *, out: Array | None = None) -> Array:
         """(..., U, V, 3) unit outward normals; zero where the surface is degenerate."""
         points = self._checked(points)
-        out = self._memory(points, out)
+        out = self.memory(points.shape[:-3], out)
         self._write(points, None, out)
         return out
 
@@ -130,7 +130,8 @@ class GridEvaluator:
     ) -> tuple[Array, Array]:
         """Positions and unit outward normals, each (..., U, V, 3)."""
         points = self._checked(points)
-        positions, normals = (self._memory(points, own) for own in out or (None, None))
+        batch = points.shape[:-3]
+        positions, normals = (self.memory(batch, own) for own in out or (None, None))
         self._write(points, positions, normals)
         return positions, normals
 
@@ -143,12 +144,31 @@ class GridEvaluator:
             )
         return array
 
-    def _memory(self, points: Array, out: Array | None) -> Array:
-        batch = points.shape[:-3]
+    def row_modes(self, points: Any) -> Array:
+        """(3, F, R, waves) value of each Fourier wave of F faces on each row that is evaluated.
+
+        They are linear in the (F, K, M, 3) data points, fewer than the positions on a large uv
+        mesh, and all that :meth:`write_from_modes` needs.
+        """
+        points = self._checked(points)
+        coefficients = self._modes.coefficients(self._waves.samples(points, self.dtype))
+        modes = self._modes.on_rows(coefficients)
+        return modes.reshape(3, len(points), -1, modes.shape[-1])
+
+    def write_from_modes(self, modes: Array, out: Array) -> None:
+        """Write the positions (F, U, V, 3) of faces, given (3, F, R, waves) modes on rows."""
+        self._sheet.write_positions(modes.reshape(3, -1, modes.shape[-1]), planar(out))
+
+    def memory(self, batch: tuple[int, ...], out: Array | None) -> Array:
+        """``out`` if it is such memory as :meth:`empty` gives for a batch; new memory for None.
+
+        Raises:
+            InputError: ``out`` is another array.
+        """
         if out is None:
             return self.empty(*batch)
         shape = (*batch, len(self.u), len(self.v), 3)
-        if out.shape != shape or out.dtype != self.dtype or not _planar(out).flags.c_contiguous:
+        if out.shape != shape or out.dtype != self.dtype or not planar(out).flags.contiguous:
             raise InputError(
                 f"out must be planar memory of shape {shape} and type {self.dtype}, got "
                 f"{out.shape} and {out.dtype}; use what empty() of this evaluator gives"
@@ -160,7 +180,7 @@ class GridEvaluator:
         faces = points.reshape(-1, *self.shape, 3)
         grid = (len(self.u), len(self.v))
         wanted = [
-            None if out is None else _planar(out).reshape(3, -1, *grid)
+            None if out is None else planar(out).reshape(3, -1, *grid)
             for out in (positions, normals)
         ]
         step = max(1, CHUNK // (3 * (grid[0] * grid[1] + self.shape[0] * self.shape[1])))
@@ -191,5 +211,7 @@ def _points_last(planar: Array) -> Array:
     return planar.transpose(*range(1, planar.ndim), 0)
 
 
-def _planar(points: Array) -> Array:
-    return points.transpose(-1, *range(points.ndim - 1))
+def planar(points: Array) -> Array:
+    """(3, ...) x, y and z apart, of (..., 3): the memory that an evaluator's results view."""
+    last = points.ndim - 1
+    return points.transpose(last, *range(last))

@@ -12,8 +12,11 @@ from pdeface.pictures.image_file import write_image
 from pdeface.pictures.paper.figure1 import figure1
 from pdeface.pictures.paper.figure2 import figure2
 from pdeface.pictures.paper.figure3 import figure3
+from pdeface.pictures.paper.figure4 import figure4
 from pdeface.pictures.paper.figure5 import figure5
 from pdeface.pictures.paper.figure6 import figure6
+from pdeface.pictures.paper.figure8 import figure8
+from pdeface.pictures.paper.figure9 import figure9
 from pdeface.pictures.paper.page import page
 from pdeface.pictures.paper.panels import Figure
 from pdeface.texture import UVTexture
@@ -31,11 +34,11 @@ def paper(
     face: Face | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> list[Path]:
-    """Redraw Figs 1, 2, 3, 5 and 6 of the paper, and write a page that compares them with it.
+    """Redraw Figs 1 to 6, 8 and 9 of the paper, and write a page that compares them with it.
 
     Args:
         directory: folder for the files; made if need be.
-        face: a face of 28 curves for Figs 2 and 3; None for the neutral one, 28 x 46.
+        face: a face of 28 curves for Figs 2, 3, 8 and 9; None for the neutral one, 28 x 46.
         progress: called with a line of text before each figure.
 
     Returns:
@@ -71,8 +74,11 @@ def _drawings(face: Face) -> Iterator[tuple[int, Callable[[], Figure]]]:
     yield 2, lambda: figure2(face)
     yield 3, lambda: figure3(face)
     steps = _portrait_steps()
+    yield 4, lambda: figure4(_neutral(), steps)
     yield 5, lambda: figure5(steps)
     yield 6, lambda: figure6(steps)
+    yield 8, lambda: figure8(face)
+    yield 9, lambda: figure9(face, steps)
 
 
 def _made(directory: PathLike) -> Path:

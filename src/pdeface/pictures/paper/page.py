@@ -12,17 +12,16 @@ __all__ = ["page"]
 HEAD: Final = """\
 # The paper's figures, redrawn
 
-*PDE Face: A Novel 3D Face Model* shows its method in nine figures. Five of them are redrawn here
+*PDE Face: A Novel 3D Face Model* shows its method in nine figures. Eight of them are redrawn here
 from this project's own data by `pdeface paper`, to be held beside the paper; below each stands
 what agrees with it and what differs, and why. Lengths are in millimetres and angles in degrees,
 measured when the figures were drawn.
 """
 
 TAIL: Final = """\
-## Figures that are not redrawn
+## The figure that is not redrawn
 
-Figs. 4 and 7 are diagrams (the flowchart, and how texture mapping relates its spaces). Figs. 8
-and 9 show the paper's own program and the shape variations and blink made with it.
+Fig. 7 is a diagram of how texture mapping relates its spaces.
 """
 
 
