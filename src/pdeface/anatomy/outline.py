@@ -17,6 +17,8 @@ __all__ = ["OPENINGS", "SAMPLES", "Loop", "Margins", "Outline", "outline_uv"]
 
 FloatArray = NDArray[np.float64]
 
+Surface = Callable[[Any, Any], FloatArray]
+
 SAMPLES = 33
 """Samples of each margin."""
 
@@ -88,13 +90,28 @@ class Outline:
             object.__setattr__(self, name, Margins(*margins))
 
     @classmethod
-    def sampled(cls, surface: Callable[[Any, Any], FloatArray]) -> Outline:
-        """The outline of a face's surface S(u, v), or of a displacement of it."""
+    def sampled(cls, surface: Surface, parting: Surface | None = None) -> Outline:
+        """The outline of a face.
+
+        Args:
+            surface: S(u, v) of the face, (..., 3) for any u and v.
+            parting: what parts lids and lips, added to it; each margin moves as the curve of its
+                side does there.
+        """
         margins = {}
-        for name in OPENINGS:
+        for name, (upper, lower, _, _) in OPENINGS.items():
             u, v = outline_uv(name)
-            margins[name] = Margins(*surface(u, v))
+            places = surface(u, np.broadcast_to(v, u.shape))
+            if parting is not None:
+                on_curves = [np.minimum(u[0], row_u(upper)), np.maximum(u[1], row_u(lower))]
+                places = places + parting(np.stack(on_curves), np.broadcast_to(v, u.shape))
+            margins[name] = Margins(*places)
         return cls(**margins)
+
+    def less(self, other: Outline) -> Outline:
+        """How far this outline is displaced from another."""
+        mine, theirs = ([np.array(getattr(each, n)) for n in OPENINGS] for each in (self, other))
+        return Outline(*(Margins(*(a - b)) for a, b in zip(mine, theirs, strict=True)))
 
 
 class Loop:
