@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import pdeface
-from pdeface.anatomy import PARTS, Anatomy, Outline
+from pdeface.anatomy import PARTS, Anatomy, Margins, Outline, placed
 from pdeface.anatomy.measured import Frame, jaw_motion, reference
 
 from .conftest import anatomy_of, outline, skin
@@ -44,11 +44,14 @@ def test_nothing_shows_in_front_of_the_skin(seed: int | None, jaw: float) -> Non
     assert hidden > 1000
 
 
-def test_the_lips_touch_behind_their_margins_at_rest(neutral: Anatomy) -> None:
-    curves = neutral.curves("mouth")
-    apart = np.abs(curves - curves[:, ::-1])[:, :, 1].max(axis=1)
-    assert apart[0] > 1e-3
-    assert apart[2] < 1e-12
+def test_the_lips_touch_behind_their_margins_at_rest(rest: Outline) -> None:
+    apart = Outline(
+        rest.right_eye, rest.left_eye, Margins(rest.mouth.upper, rest.mouth.lower - (0, 1e-3, 0))
+    )
+    curves = placed(apart).curves("mouth")
+    width = np.abs(curves - curves[:, ::-1])[:, :, 1].max(axis=1)
+    assert width[0] > 9e-4
+    assert width[2] < 1e-12
 
 
 def test_the_jaw_takes_the_lower_teeth_along(neutral: Anatomy, rest: Outline) -> None:
