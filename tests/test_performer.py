@@ -20,7 +20,7 @@ ROUNDING = {np.float32: 1e-7, np.float64: 1e-14}
 def frames(count: int) -> np.ndarray:
     """Weights of everything whose effect does not depend on what else a face does."""
     weights = np.random.default_rng(5).random((count, len(ARKIT)))
-    weights[:, [ARKIT.index(n) for n in ("eyeBlinkLeft", "eyeWideRight", "mouthClose")]] = 0.0
+    weights[:, [ARKIT.index(n) for n in ("eyeBlinkLeft", "eyeBlinkRight", "mouthClose")]] = 0.0
     return weights
 
 

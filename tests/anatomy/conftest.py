@@ -6,17 +6,18 @@ import numpy as np
 import pytest
 
 import pdeface
-from pdeface.anatomy import OPENINGS, Anatomy, Outline, outline_uv, placed
+from pdeface.anatomy import Anatomy, Outline, outline_uv, placed
+from pdeface.controls import displacement, slits
+from pdeface.pde import PDESurface
 from pdeface.uvmesh import UVMesh
 
 
 def outline(face: pdeface.Face) -> Outline:
-    return Outline.sampled(face.surface())
-
-
-def difference(first: Outline, second: Outline) -> Outline:
-    both = [(np.array(getattr(first, n)), np.array(getattr(second, n))) for n in OPENINGS]
-    return Outline(*(a - b for a, b in both))
+    if not face.weights:
+        return Outline.sampled(face.surface())
+    moved = displacement(face.weights, face.curves.shape)
+    parting = PDESurface(moved.parting, continuity=slits(face.curves.shape[0]))
+    return Outline.sampled(PDESurface(face.curves.points + moved.smooth), parting)
 
 
 def skin(face: pdeface.Face, openings: tuple[str, ...]) -> np.ndarray:
@@ -26,7 +27,8 @@ def skin(face: pdeface.Face, openings: tuple[str, ...]) -> np.ndarray:
     outside = np.ones(u.shape, dtype=bool)
     for name in openings:
         rows, columns = outline_uv(name)
-        outside &= (u < rows[0, 0]) | (u > rows[1, 0]) | (v < columns[0]) | (v > columns[-1])
+        upper, lower = (np.interp(v, columns, row, left=2, right=2) for row in rows)
+        outside &= (u < upper) | (u > lower)
     return face.mesh(433, 481).vertices[outside.ravel()]
 
 

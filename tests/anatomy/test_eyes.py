@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import pdeface
-from pdeface.anatomy import PARTS, Anatomy, Outline, placed
+from pdeface.anatomy import PARTS, SAMPLES, Anatomy, Outline, placed
 from pdeface.anatomy.eyes import CLEARANCE
 
-from .conftest import anatomy_of, difference, outline, skin
+from .conftest import anatomy_of, outline, skin
 
 
 @pytest.mark.parametrize("seed", [None, 0, 1, 2, 3, 4])
@@ -35,7 +35,7 @@ def test_the_skin_round_the_openings_is_in_front_of_the_eyeballs(seed: int | Non
 
 
 def test_a_lid_that_reaches_far_back_pushes_the_eyeball_back(rest: Outline) -> None:
-    deep = difference(rest, Outline(*[np.broadcast_to((0.0, 0.0, 0.01), (2, 33, 3))] * 3))
+    deep = rest.less(Outline(*[np.broadcast_to((0.0, 0.0, 0.01), (2, SAMPLES, 3))] * 3))
     near, far = placed(rest), placed(rest, [deep])
     for side in ("left", "right"):
         moved = far.eyeballs[side].centre - near.eyeballs[side].centre
@@ -57,7 +57,7 @@ def test_a_lid_that_reaches_far_back_pushes_the_eyeball_back(rest: Outline) -> N
 def test_eyes_turn_thirty_degrees(
     neutral: Anatomy, rest: Outline, look: str, side: str, direction: tuple[int, int]
 ) -> None:
-    still = difference(rest, rest)
+    still = rest.less(rest)
     name = f"{side}_eyeball"
     turned = neutral.curves(name) + neutral.moved(name, still, {look: 1.0})
     ball = neutral.eyeballs[side]

@@ -91,7 +91,7 @@ def test_a_symmetric_face_has_symmetric_parts(rest: Outline, name: str) -> None:
 def test_unknown_parts_and_outlines_are_refused(neutral: Anatomy, rest: Outline) -> None:
     with pytest.raises(InputError, match="the parts are right_eyeball"):
         neutral.curves("ear")
-    with pytest.raises(InputError, match=r"two margins of \(33, 3\) points"):
+    with pytest.raises(InputError, match=r"two margins of \(41, 3\) points"):
         Outline(np.zeros((2, 5, 3)), rest.left_eye, rest.mouth)
     with pytest.raises(InputError, match="must be finite"):
         Outline(np.full((2, SAMPLES, 3), np.nan), rest.left_eye, rest.mouth)

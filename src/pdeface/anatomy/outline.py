@@ -4,40 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.errors import InputError
-from pdeface.openings import Opening
 from pdeface.template import openings
 
 __all__ = ["OPENINGS", "SAMPLES", "Loop", "Margins", "Outline", "outline_uv"]
 
 FloatArray = NDArray[np.float64]
 
-OPENINGS = tuple(opening.name for opening in openings())
-"""The openings of the face by name."""
+Surface = Callable[[Any, Any], FloatArray]
 
 SAMPLES = len(openings()[0].v)
 """Samples of each margin."""
 
+OPENINGS = MappingProxyType({opening.name: opening for opening in openings()})
+"""The openings of the face by name."""
 
-def outline_uv(name: str) -> tuple[FloatArray, FloatArray]:
+
+def outline_uv(name: str, samples: int = SAMPLES) -> tuple[FloatArray, FloatArray]:
     """Where the margins of an opening lie on the face.
 
     Returns:
-        (2, SAMPLES) values of u, the upper margin's and the lower's; (SAMPLES,) values of v from
-        the subject's right to left, dense at the corners.
+        (2, samples) values of u, the upper margin's and the lower's; (samples,) values of v from
+        the subject's right to left, ``v_mid - h cos(pi i / (samples - 1))``, dense at the corners.
     """
-    opening = _named(name)
-    return np.array([opening.upper, opening.lower]), np.array(opening.v)
-
-
-def _named(name: str) -> Opening:
-    (found,) = (opening for opening in openings() if opening.name == name)
-    return found
+    opening = OPENINGS[name]
+    start, end = opening.corners
+    cosine = np.cos(np.pi * np.arange(samples) / (samples - 1))
+    v = 0.5 * (start + end) - 0.5 * (end - start) * cosine
+    v[0], v[-1] = start, end
+    return np.stack(opening.lines(v)), v
 
 
 class Margins(NamedTuple):
@@ -79,13 +80,28 @@ class Outline:
             object.__setattr__(self, name, Margins(*margins))
 
     @classmethod
-    def sampled(cls, surface: Callable[[Any, Any], FloatArray]) -> Outline:
-        """The outline of a face's surface S(u, v), or of a displacement of it."""
+    def sampled(cls, surface: Surface, parting: Surface | None = None) -> Outline:
+        """The outline of a face.
+
+        Args:
+            surface: S(u, v) of the face, (..., 3) for any u and v.
+            parting: what parts lids and lips, added to it; each margin moves as the curve of its
+                side does there.
+        """
         margins = {}
-        for name in OPENINGS:
+        for name, opening in OPENINGS.items():
             u, v = outline_uv(name)
-            margins[name] = Margins(*surface(u, v))
+            places = surface(u, np.broadcast_to(v, u.shape))
+            if parting is not None:
+                on_curves = [np.minimum(u[0], opening.rows[0]), np.maximum(u[1], opening.rows[1])]
+                places = places + parting(np.stack(on_curves), np.broadcast_to(v, u.shape))
+            margins[name] = Margins(*places)
         return cls(**margins)
+
+    def less(self, other: Outline) -> Outline:
+        """How far this outline is displaced from another."""
+        mine, theirs = ([np.array(getattr(each, n)) for n in OPENINGS] for each in (self, other))
+        return Outline(*(Margins(*(a - b)) for a, b in zip(mine, theirs, strict=True)))
 
 
 class Loop:

@@ -22,7 +22,7 @@ HEIGHT = 0.0165
 LIP = 0.0030
 """Thickness of the lips where they lie on the teeth, metres on the measured head."""
 
-SHOWN = 0.0015
+SHOWN = 0.0025
 """How much lower both arches stand than on the measured head, whose upper teeth end so high that
 its lips would hide them in a smile, metres."""
 

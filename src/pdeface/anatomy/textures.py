@@ -87,7 +87,7 @@ def teeth(name: str, size: int = 512) -> Pixels:
     tooth = np.array(TOOTH, float) * (shade * (1.0 - 0.10 * height))[..., None]
     gum = np.array(GUM, float) * (1.0 - 0.10 * across**2)[..., None]
     # No renderer of such a mesh shades a mouth from within: the shadow of the cheeks is painted.
-    dusk = 1.0 - 0.62 * _step(0.55, 1.5, np.abs(angle)) * np.ones_like(height)
+    dusk = 1.0 - 0.70 * _step(0.50, 1.35, np.abs(angle)) * np.ones_like(height)
     return _pixels(_mix(tooth, gum, _step(-0.03, 0.03, height - gum_line)) * dusk[..., None])
 
 

@@ -30,7 +30,7 @@ SECTIONS = np.array(
     ]
 )
 
-OUT, LIFT, DROOP = 0.036, 0.0105, 0.013
+OUT, LIFT, DROOP = 0.036, 0.0105, 0.006
 """Where ``tongueOut`` takes the tip: forward, over the lower teeth and then down, metres."""
 
 GROOVE = 0.0012
