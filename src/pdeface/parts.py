@@ -18,19 +18,34 @@ from pdeface.controls import CONTROLS, Displacement, expressed, person
 from pdeface.controls.seams import seam
 from pdeface.face import Face
 
-__all__ = ["FaceParts"]
+__all__ = ["FaceParts", "has_parts"]
 
 FloatArray = NDArray[np.float64]
 
 # Blinks of which the eyeballs keep clear, lest they show through a lid on its way.
 _BLINKS = (0.25, 0.5, 0.75, 1.0)
 
+NARROWEST = 1e-6
+"""Metres between the corners of an opening behind which something can be."""
+
+
+def has_parts(face: Face) -> bool:
+    """Whether a face has lids and lips, and openings wide enough to look into."""
+    if not face.has_lids:
+        return False
+    points = face.curves.points + person(face.weights, face.curves.shape)
+    widths = []
+    for name in OPENINGS:
+        upper, _ = seam(name, face.curves.shape).lines(points, np.zeros_like(points))
+        widths.append(float(np.linalg.norm(upper[-1] - upper[0])))
+    return min(widths) > NARROWEST
+
 
 class FaceParts:
     """The parts behind the openings of a face.
 
     Args:
-        face: with curves on lids and lips (:attr:`pdeface.Face.has_lids`).
+        face: one that has them (:func:`has_parts`).
 
     Example:
         >>> import pdeface

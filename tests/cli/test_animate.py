@@ -92,7 +92,7 @@ def test_what_is_lost_is_said_once_each(pdeface_command, face_file, blink_file, 
     (missing,) = (line for line in lines if "not in the motion, and so 0" in line)
     assert missing.endswith("more")
     assert next(line for line in lines if "ignored" in line).endswith(": Mood")
-    assert next(line for line in lines if "left out" in line).endswith(": tongueOut")
+    assert not any("left out" in line for line in lines)
     quiet = pdeface_command(*words, "--quiet")
     assert (quiet.status, quiet.out, quiet.err) == (0, "", "")
 
@@ -199,8 +199,6 @@ def test_a_mesh_for_each_frame(pdeface_command, face_file, blink_file, tmp_path)
     outcome = pdeface_command(*words, "--mesh", "28x41")
     assert outcome.status == 0
     assert outcome.out.startswith(f"wrote {out.with_name('face.0001.obj')} to face.0005.obj (5 ")
-    left_out = next(line for line in outcome.err.splitlines() if "left out" in line)
-    assert left_out.endswith(": tongueOut")
 
     def vertices(number: int) -> np.ndarray:
         text = out.with_name(f"face.{number:04d}.obj").read_text(encoding="utf-8")

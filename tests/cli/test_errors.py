@@ -44,7 +44,7 @@ WRONG_USE = [
     ["export", "BUST", "-o", "a.glb", "--clamp", "--set", "jawOpn=1"],
     ["export", "BUST", "-o", "a.glb", "--expressions", "all"],
     ["export", "BUST", "-o", "a.glb", "--expressions", "jawOpn"],
-    ["make", "-o", "a.glb", "--expressions", "tongueOut"],
+    ["make", "-o", "a.glb", "--expressions", "tongueUp"],
     ["make", "-o", "a.glb", "--expressions", "jawOpen,"],
     ["make", "-o", "a.obj", "--expressions", "all"],
     ["make", "-o", "a.glb", "--set", "noseLenght=1"],

@@ -34,7 +34,7 @@ def positions(**weights: float) -> np.ndarray:
 
 def test_the_names_are_arkits(shared_data: Path) -> None:
     assert list(controls.ARKIT) == (shared_data / "arkit52.txt").read_text().split()
-    assert [name for name in controls.ARKIT if name != "tongueOut"] == EXPRESSIONS
+    assert list(controls.ARKIT) == EXPRESSIONS
 
 
 @pytest.mark.parametrize("name", EXPRESSIONS)
@@ -115,6 +115,8 @@ def test_every_expression_moves_and_its_two_sides_mirror_each_other(level: str) 
     shape = pdeface.neutral(level).curves.shape
     half = shape[1] // 2
     for name in EXPRESSIONS:
+        if name == "tongueOut":  # which moves nothing of the face itself
+            continue
         moved = sum(controls.displacement({name: 1.0}, shape))
         assert 5e-4 < np.abs(moved).max() < 0.06, name
         if name.endswith("Left") and name not in ("jawLeft", "mouthLeft"):

@@ -161,7 +161,8 @@ def test_at_rest_the_face_is_where_it_is_without_animation(tmp_path: Path) -> No
 
     pdeface.export(NEUTRAL, tmp_path / "a.glb", animation=Animation("turn", TIMES, {}, YAW))
     moving = trimesh.load_scene(tmp_path / "a.glb", process=False).to_geometry()
-    np.testing.assert_allclose(moving.vertices, NEUTRAL.mesh().vertices, atol=1e-7)
+    skin = NEUTRAL.mesh().vertices
+    np.testing.assert_allclose(moving.vertices[: len(skin)], skin, atol=1e-7)
 
 
 @pytest.mark.parametrize("animation", [None, Animation("blink", TIMES, BLINK)], ids=["no", "yes"])

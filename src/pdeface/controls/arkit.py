@@ -1,8 +1,8 @@
 """The 52 expressions of Apple's ARKit, and what each was measured from.
 
 Left and right are the subject's. ``browInnerUp`` and ``cheekPuff`` are the sum of their two sides,
-which the source has apart. ``tongueOut`` has no source and is not a control until a face has a
-tongue.
+which the source has apart. ``tongueOut`` has no source: it moves the tongue
+(:mod:`pdeface.anatomy`) and nothing of the face itself.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _PAIRED = frozenset(
     ]
 )
 _SUMMED = frozenset({"browInnerUp", "cheekPuff"})
-_WITHOUT_SOURCE = frozenset({"tongueOut"})
+_OF_THE_TONGUE = frozenset({"tongueOut"})
 
 
 def _names(stem: str) -> tuple[str, ...]:
@@ -68,7 +68,7 @@ def _sources(name: str) -> tuple[str, ...]:
 
 
 SOURCES: Mapping[str, tuple[str, ...]] = MappingProxyType(
-    {name: _sources(name) for name in ARKIT if name not in _WITHOUT_SOURCE}
+    {name: () if name in _OF_THE_TONGUE else _sources(name) for name in ARKIT}
 )
 """Measured expressions that each control is the sum of."""
 

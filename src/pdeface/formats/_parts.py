@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pdeface.anatomy import Part, textures
 from pdeface.formats._targets import MorphTargets
-from pdeface.parts import FaceParts
+from pdeface.parts import FaceParts, has_parts
 
 __all__ = ["PartSample", "sampled_parts"]
 
@@ -48,7 +48,7 @@ class PartSample:
 
 def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
     """The parts of a face that has openings; none of one that has not."""
-    if not targets.surface.uv_mesh.cuts:
+    if not targets.surface.uv_mesh.cuts or not has_parts(targets.face):
         return
     parts = FaceParts(targets.face)
     detail = min(1.0, max(_COARSEST, targets.surface.uv_mesh.rows / _ROWS))

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.controls import ARKIT, COMPANY, CONTROLS, Displacement, expressed, person, slits
+from pdeface.controls import COMPANY, CONTROLS, Displacement, expressed, person, slits
 from pdeface.controls.visemes import VISEMES
 from pdeface.errors import InputError
 from pdeface.face import Face
@@ -164,8 +164,6 @@ def _layers(smooth: Float64, parting: Float64, parts: bool) -> Float64:
 
 
 def _unknown(name: object, every: Sequence[str]) -> InputError:
-    if name in ARKIT:
-        return InputError(f"faces cannot do {name!r} yet; leave it out")
     near = difflib.get_close_matches(str(name), every, n=3, cutoff=0.5)
     hint = f"did you mean {', '.join(near)}?" if near else "see pdeface.controls.ARKIT"
     return InputError(f"no expression is called {name!r}; {hint}")

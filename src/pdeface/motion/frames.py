@@ -22,7 +22,7 @@ class Frames(Sequence[Frame]):
     """The face and the (3,) yaw, pitch and roll of its head, radians, in each frame of a track.
 
     Expressions that the track was asked for and lacks are 0, as in an animated GLB; others that it
-    does not name stay as the face has them. What the face cannot do yet (``tongueOut``) is left
+    does not name stay as the face has them. What the face cannot do yet is left
     out.
 
     Args:

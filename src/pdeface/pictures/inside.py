@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pdeface.anatomy import textures
 from pdeface.controls.neck import PIVOT, rotations
 from pdeface.face import Face
-from pdeface.parts import FaceParts
+from pdeface.parts import FaceParts, has_parts
 from pdeface.pictures.camera import Camera
 from pdeface.pictures.light import Rig, light_up
 from pdeface.pictures.solid import Solid
@@ -32,7 +32,7 @@ def inside(
         albedo: (3,) linear reflectance of everything, for clay; None for the parts' textures.
         head: (3,) yaw, pitch and roll of the head, radians.
     """
-    if not face.has_lids:
+    if not has_parts(face):
         return []
     parts = FaceParts(face)
     turn = np.eye(3) if head is None else rotations(head)
