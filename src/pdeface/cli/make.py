@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pdeface.cli.landmarks import automatic_points
 from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
 from pdeface.cli.options import (
     DEFAULT_MESH,
     ClampOption,
     ExpressionsOption,
+    FaceNumberOption,
     JoinOption,
     MeshOption,
+    ModelOption,
     QuietOption,
     SetOption,
     check_outputs,
@@ -23,7 +26,11 @@ from pdeface.cli.report import Report
 from pdeface.errors import InputError
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from pdeface import Face
+    from pdeface.texture import FeaturePoints
 
 __all__ = ["make"]
 
@@ -41,14 +48,16 @@ def make(
     ],
     photo: Annotated[
         Path | None,
-        typer.Argument(metavar="PHOTO", help="A portrait from the front; needs --points. "
-                       "Without it, the bundled one."),
+        typer.Argument(metavar="PHOTO", help="A portrait from the front. Without it, the "
+                       "bundled one."),
     ] = None,
     points: Annotated[
         Path | None,
         typer.Option("--points", metavar="FILE", help="JSON file of the 25 feature points in "
-                     "PHOTO (docs/points.md)."),
+                     "PHOTO (docs/points.md). Without it they are found by MediaPipe."),
     ] = None,
+    face_number: FaceNumberOption = 1,
+    model: ModelOption = None,
     level: Annotated[
         str | None,
         typer.Option(
@@ -73,30 +82,32 @@ def make(
     """Make a textured face from a portrait.
 
     The photo is warped onto the uv mesh so that its 25 feature points fall where the face has
-    them; the face has the shape of the neutral one unless --random or --set say otherwise.
+    them; the face has the shape of the neutral one unless --random or --set say otherwise. Points
+    that are not given are found on this machine; the photo is sent nowhere.
 
     \b
     Examples:
       pdeface make -o face.glb
       pdeface make -o face.pdeface -o face.glb -o face.png
+      pdeface make me.jpg -o me.glb
       pdeface make me.jpg --points me.json -o me.glb
       pdeface make --level 28x46 --mesh 28x41 -o paper.obj
       pdeface make --random 7 --set jawOpen=0.3 -o someone.png
     """
     size, weights = parse_mesh(mesh), parse_weights(set_)
-    if (photo is None) != (points is None):
-        given, missing = ("PHOTO", "--points FILE") if points is None else ("--points", "PHOTO")
-        raise InputError(f"{given} also needs {missing}; give both, or none for the bundled one")
+    if photo is None and points is not None:
+        raise InputError("--points also needs PHOTO; give both, or none for the bundled one")
     import pdeface
     from pdeface.formats import SUFFIXES
     from pdeface.pictures.image_file import FORMATS as PICTURES
 
     shape = with_weights(_shape(person, level), weights, clamp)
     moving = chosen_expressions(shape, expressions, out)
-    check_outputs(out, [photo, points], [*SUFFIXES, *PICTURES])
+    check_outputs(out, [photo, points, model], [*SUFFIXES, *PICTURES])
     report = Report(quiet)
+    image, places = _photo(photo, points, face_number, model, report)
     with report.step("warping the photo onto the uv mesh"):
-        face = _textured(shape, photo, points)
+        face = _textured(shape, photo, image, places)
     for path in out:
         with report.step(f"writing {path}") as progress:
             if path.suffix.lower() in PICTURES:
@@ -117,14 +128,29 @@ def _shape(person: int | None, level: str | None) -> Face:
     return pdeface.random(person, **levels)
 
 
-def _textured(face: Face, photo: Path | None, points: Path | None) -> Face:
-    from pdeface.texture import FeaturePoints, portrait, read_photo, uv_texture
+def _photo(
+    photo: Path | None, points: Path | None, number: int, model: Path | None, report: Report
+) -> tuple[NDArray[np.uint8], FeaturePoints]:
+    """The photo and its feature points: the bundled ones, those given, or those found."""
+    from pdeface.texture import FeaturePoints, portrait, read_photo
 
-    if photo is None or points is None:
-        image, places = portrait()
+    if photo is None:
+        return portrait()
+    if points is None:
+        image = read_photo(photo)
+        return image, automatic_points(photo, image, number, model, report)
+    # The points first: they are read in no time, and a mistake in them is likelier.
+    places = FeaturePoints.load(points)
+    return read_photo(photo), places
+
+
+def _textured(
+    face: Face, photo: Path | None, image: NDArray[np.uint8], places: FeaturePoints
+) -> Face:
+    from pdeface.texture import uv_texture
+
+    if photo is None:
         face = face.with_notes({"photo": "Eileen Collins; NASA, public domain"})
     else:
-        # The points first: they are read in no time, and a mistake in them is likelier.
-        places, image = FeaturePoints.load(points), read_photo(photo)
         face = face.with_name(photo.stem)
     return face.with_texture(uv_texture(image, places).image)

@@ -15,10 +15,12 @@ __all__ = [
     "DEFAULT_MESH",
     "ClampOption",
     "ExpressionsOption",
+    "FaceNumberOption",
     "FacePath",
     "Join",
     "JoinOption",
     "MeshOption",
+    "ModelOption",
     "QuietOption",
     "SetOption",
     "check_outputs",
@@ -58,6 +60,24 @@ ExpressionsOption = Annotated[
         metavar="all|none|NAME,...",
         help="Which expressions a .glb or .gltf can make, as morph targets; by default all that "
         "the face can.",
+    ),
+]
+FaceNumberOption = Annotated[
+    int,
+    typer.Option(
+        "--face",
+        metavar="NUMBER",
+        min=1,
+        help="Which face of a photo of several, counted from the largest.",
+    ),
+]
+ModelOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--model",
+        metavar="FILE",
+        help="MediaPipe's face_landmarker.task; by default the file that PDEFACE_MODEL names, or "
+        "else one that is downloaded once.",
     ),
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
