@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -112,3 +114,19 @@ def test_what_a_photo_lacks_is_told(photo, collins) -> None:
     (small,) = doubts(collins, photo)
     assert "small" in small
     assert "dark" in doubts(collins, photo // 5)[1]
+
+
+@pytest.mark.parametrize(("angle", "words"), [(0.5, "to its left"), (-0.5, "to its right")])
+def test_a_turned_head_is_told(photo, collins, angle, words) -> None:
+    pose = np.eye(4)
+    pose[0, 0] = pose[2, 2] = np.cos(angle)
+    pose[0, 2], pose[2, 0] = np.sin(angle), -np.sin(angle)
+    assert words in doubts(replace(collins, pose=pose), photo)[1]
+
+
+@pytest.mark.parametrize(
+    ("closed", "words"), [(["Left"], "the left eye is"), (["Left", "Right"], "both eyes are")]
+)
+def test_closed_eyes_are_told(photo, collins, closed, words) -> None:
+    scores = {**collins.scores, **{f"eyeBlink{side}": 0.9 for side in closed}}
+    assert words in doubts(replace(collins, scores=scores), photo)[1]

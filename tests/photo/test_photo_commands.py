@@ -47,6 +47,8 @@ def test_points_writes_what_make_takes(here, capfd) -> None:
     assert "wrote me.json" in out
     by_points, at_once = pdeface.load("by_points.pdeface"), pdeface.load("at_once.pdeface")
     np.testing.assert_array_equal(by_points.texture, at_once.texture)
+    assert not by_points.weights
+    assert set(at_once.weights) <= {f"identity{n:02d}" for n in range(1, 51)}
     assert at_once.name == "me"
 
 
@@ -57,6 +59,19 @@ def test_the_texture_is_that_of_the_points(here, photo) -> None:
     expected = uv_texture(photo, FeaturePoints.load("small.json")).image
     difference = np.abs(pdeface.load("small.pdeface").texture.astype(int) - expected)
     assert difference.mean() < 0.5  # the file's ten digits
+
+
+def test_the_shape_is_the_persons_unless_another_is_asked_for(here) -> None:
+    for words in ([], ["--neutral-shape"], ["--random", "7"], ["--set", "identity01=2"]):
+        assert main(["make", "me.png", "-o", "a.pdeface", "-q", *words]) == 0
+        weights = pdeface.load("a.pdeface").weights
+        if "--random" in words:
+            assert weights == pdeface.random(7).weights
+        elif words[:1] == ["--neutral-shape"]:
+            assert not weights
+        else:
+            assert len(weights) == 50
+            assert (weights["identity01"] == 2.0) == bool(words)
 
 
 def test_several_faces_are_told_and_another_can_be_had(here, photo, capfd) -> None:

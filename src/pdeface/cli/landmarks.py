@@ -13,17 +13,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pdeface.photo import PhotoFace
-    from pdeface.texture import FeaturePoints
 
-__all__ = ["automatic_points"]
+__all__ = ["face_in"]
 
 _BAR = 24
 
 
-def automatic_points(
+def face_in(
     path: Path, photo: NDArray[np.uint8], number: int, model: Path | None, report: Report
-) -> FeaturePoints:
-    """The feature points of a face in a photo; notes and warnings go to stderr.
+) -> PhotoFace:
+    """A face found in a photo; notes and warnings go to stderr.
 
     Args:
         path: the photo's file, for messages.
@@ -32,10 +31,10 @@ def automatic_points(
         model: MediaPipe's model; None for the default one.
 
     Raises:
-        InputError: no such face, no model, or a head turned too far.
+        InputError: no such face, or no model.
         MissingExtraError: MediaPipe is not installed.
     """
-    from pdeface.photo import choose, doubts, feature_points, find_faces, model_file
+    from pdeface.photo import choose, doubts, find_faces, model_file
 
     with report.step("looking for the face model") as show:
         file = model_file(model, _download(show))
@@ -46,7 +45,7 @@ def automatic_points(
         report.note(_which(faces, number))
     for doubt in doubts(face, photo):
         report.warn(doubt)
-    return feature_points(face)
+    return face
 
 
 def _which(faces: list[PhotoFace], number: int) -> str:

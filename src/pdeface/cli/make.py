@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pdeface.cli.landmarks import automatic_points
+from pdeface.cli.landmarks import face_in
 from pdeface.cli.moves import chosen_expressions, parse_weights, with_weights
 from pdeface.cli.options import (
     DEFAULT_MESH,
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pdeface import Face
+    from pdeface.photo import PhotoFace
     from pdeface.texture import FeaturePoints
 
 __all__ = ["make"]
@@ -58,6 +59,11 @@ def make(
     ] = None,
     face_number: FaceNumberOption = 1,
     model: ModelOption = None,
+    neutral_shape: Annotated[
+        bool,
+        typer.Option("--neutral-shape", help="Keep the neutral face's shape instead of the shape "
+                     "that the landmarks in PHOTO say."),
+    ] = False,
     level: Annotated[
         str | None,
         typer.Option(
@@ -82,8 +88,9 @@ def make(
     """Make a textured face from a portrait.
 
     The photo is warped onto the uv mesh so that its 25 feature points fall where the face has
-    them; the face has the shape of the neutral one unless --random or --set say otherwise. Points
-    that are not given are found on this machine; the photo is sent nowhere.
+    them. Points that are not given are found on this machine, and the person's shape with them;
+    the photo is sent nowhere. With --points, and without PHOTO, the face has the shape of the
+    neutral one; --random and --set change it.
 
     \b
     Examples:
@@ -105,7 +112,10 @@ def make(
     moving = chosen_expressions(shape, expressions, out)
     check_outputs(out, [photo, points, model], [*SUFFIXES, *PICTURES])
     report = Report(quiet)
-    image, places = _photo(photo, points, face_number, model, report)
+    image, places, found = _photo(photo, points, face_number, model, report)
+    if found is not None and person is None and not neutral_shape:
+        with report.step("fitting the person's shape"):
+            shape = _fitted(shape, found)
     with report.step("warping the photo onto the uv mesh"):
         face = _textured(shape, photo, image, places)
     for path in out:
@@ -130,18 +140,28 @@ def _shape(person: int | None, level: str | None) -> Face:
 
 def _photo(
     photo: Path | None, points: Path | None, number: int, model: Path | None, report: Report
-) -> tuple[NDArray[np.uint8], FeaturePoints]:
-    """The photo and its feature points: the bundled ones, those given, or those found."""
+) -> tuple[NDArray[np.uint8], FeaturePoints, PhotoFace | None]:
+    """The photo, its feature points (bundled, given or found), and the face if it was found."""
     from pdeface.texture import FeaturePoints, portrait, read_photo
 
     if photo is None:
-        return portrait()
+        return *portrait(), None
     if points is None:
         image = read_photo(photo)
-        return image, automatic_points(photo, image, number, model, report)
+        from pdeface.photo import feature_points
+
+        found = face_in(photo, image, number, model, report)
+        return image, feature_points(found), found
     # The points first: they are read in no time, and a mistake in them is likelier.
     places = FeaturePoints.load(points)
-    return read_photo(photo), places
+    return read_photo(photo), places, None
+
+
+def _fitted(face: Face, found: PhotoFace) -> Face:
+    """The face with the identity of the person found; weights that were set stay."""
+    from pdeface.photo import fit_shape
+
+    return face.with_weights({**fit_shape(found).identity, **face.weights})
 
 
 def _textured(

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from pdeface.cli.landmarks import automatic_points
+from pdeface.cli.landmarks import face_in
 from pdeface.cli.options import FaceNumberOption, ModelOption, QuietOption, check_outputs
 from pdeface.cli.report import Report
 
@@ -34,9 +34,10 @@ def points(
       pdeface points us.jpg -o her.json --face 2
     """
     check_outputs([out], [photo, model], [".json"])
+    from pdeface.photo import feature_points
     from pdeface.texture import read_photo
 
     report = Report(quiet)
-    found = automatic_points(photo, read_photo(photo), face_number, model, report)
-    found.save(out)
+    found = face_in(photo, read_photo(photo), face_number, model, report)
+    feature_points(found).save(out)
     report.wrote(out)
