@@ -25,11 +25,14 @@ class Anchors(NamedTuple):
     Attributes:
         uv: (478, 2) u, and v in radians.
         spread: (478,) root mean square distance on one axis of what is found in a picture from
-            where the surface has it, in eye distances.
+            where the surface has it, in eye distances, that no mode explains.
+        modes: (modes, 478, 2) how the landmarks err together: pixels to the right and down with
+            the eyes level, in eye distances, for one standard deviation.
     """
 
     uv: FloatArray
     spread: FloatArray
+    modes: FloatArray
 
 
 @lru_cache(maxsize=1)

@@ -47,8 +47,19 @@ class PhotoFace:
     @property
     def eye_distance(self) -> float:
         """Distance between the middles of the eyes, pixels."""
-        middles = [self.landmarks[list(eye), :2].mean(axis=0) for eye in (_RIGHT_EYE, _LEFT_EYE)]
-        return float(np.linalg.norm(middles[1] - middles[0]))
+        return float(np.linalg.norm(self._between_eyes))
+
+    @property
+    def across(self) -> FloatArray:
+        """(2,) unit vector in the photo from the right eye to the left."""
+        return np.asarray(self._between_eyes / self.eye_distance)
+
+    @property
+    def _between_eyes(self) -> FloatArray:
+        right, left = (
+            self.landmarks[list(eye), :2].mean(axis=0) for eye in (_RIGHT_EYE, _LEFT_EYE)
+        )
+        return np.asarray(left - right)
 
     @property
     def yaw(self) -> float:

@@ -19,8 +19,8 @@ __all__ = ["PhotoShape", "fit_shape"]
 FloatArray = NDArray[np.float64]
 
 _MESH_LANDMARKS = 468  # the irises' five each, after these, move with the gaze
-_DOUBT = 4.0
-"""What the landmarks' spread is multiplied by: they err together, in much fewer ways than 468."""
+_DOUBT = 6.0
+"""What the landmarks' own spread is multiplied by: photos differ more than the pictures did."""
 
 _EXPRESSION_SPREAD = 0.3
 """Standard deviation of an expression from the detector's score for it."""
@@ -28,7 +28,10 @@ _EXPRESSION_SPREAD = 0.3
 _OUTLIER = 2.5
 """Standard deviations from which on a landmark loses weight."""
 
-_MOST, _ROUNDS = 3.0, 12
+_ERRORS = 1.0
+"""Standard deviations of the modes in which they err together, of those in the pictures."""
+
+_MOST, _MOST_ERROR, _ROUNDS = 3.0, 5.0, 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,22 +81,27 @@ def fit_shape(face: PhotoFace) -> PhotoShape:
     """Camera, identity and expression that explain the landmarks best.
 
     Least squares on the distances in the photo, each divided by what is usual for its landmark and
-    weighed down if it is an outlier (Cauchy's weights), with identity weights that are normally
-    distributed, and expressions about those that the detector names. Gauss and Newton's method,
-    weights kept in their ranges.
+    weighed down if it is an outlier (Cauchy's weights). Identity weights are expected to be
+    normally distributed, expressions to be about those that the detector names, and the landmarks
+    to err together in the ways in which they did in pictures of known heads. Gauss and Newton's
+    method, all values kept in their ranges.
 
     Args:
         face: found in a photo.
     """
     basis = _basis()
     target = face.landmarks[:_MESH_LANDMARKS, :2]
+    errors = _errors(face)
     sigma = _DOUBT * anchors().spread[:_MESH_LANDMARKS] * face.eye_distance
     mean, spread, low, high = _priors(basis, face)
     camera, values = _first_camera(face, basis), np.clip(mean, low, high)
+    controls = len(basis.names)
     for _ in range(_ROUNDS):
-        points = basis.at(values)
-        off = (target - camera.project(points)) / sigma[:, None]
-        slopes = np.concatenate([camera.own_moves(points), camera.moves(points, basis.moves)])
+        points = basis.at(values[:controls])
+        found = camera.project(points) + np.tensordot(values[controls:], errors, 1)
+        off = (target - found) / sigma[:, None]
+        moves = camera.own_moves(points), camera.moves(points, basis.moves), errors
+        slopes = np.concatenate(moves)
         slopes = (slopes / sigma[:, None]).reshape(len(slopes), -1)
         weight = 1.0 / (1.0 + (off**2).sum(axis=1) / _OUTLIER**2)
         weighed = slopes * np.repeat(weight, 2)
@@ -104,8 +112,8 @@ def fit_shape(face: PhotoFace) -> PhotoShape:
         step = np.linalg.solve(normal, weighed @ off.ravel() + pull)
         camera = camera.stepped(step[:PARAMETERS])
         values = np.clip(values + step[PARAMETERS:], low, high)
-    away = np.linalg.norm(target - camera.project(basis.at(values)), axis=1)
-    weights = list(zip(basis.names, values.tolist(), strict=True))
+    away = np.linalg.norm(target - camera.project(basis.at(values[:controls])), axis=1)
+    weights = list(zip(basis.names, values[:controls].tolist(), strict=True))
     return PhotoShape(
         identity=dict(weights[: basis.identities]),
         expression=dict(weights[basis.identities :]),
@@ -115,16 +123,23 @@ def fit_shape(face: PhotoFace) -> PhotoShape:
 
 
 def _priors(basis: _Basis, face: PhotoFace) -> tuple[FloatArray, ...]:
-    """Mean, standard deviation, lowest and highest value of each control."""
+    """Mean, standard deviation, lowest and highest value of each control and error."""
     expressions = basis.names[basis.identities :]
     scores = np.array([face.scores.get(name, 0.0) for name in expressions])
-    ones, nothing = np.ones(basis.identities), np.zeros(basis.identities)
+    one = np.ones(basis.identities), np.ones(len(scores)), np.ones(len(anchors().modes))
     return (
-        np.concatenate([nothing, scores]),
-        np.concatenate([ones, np.full(len(scores), _EXPRESSION_SPREAD)]),
-        np.concatenate([-_MOST * ones, np.zeros(len(scores))]),
-        np.concatenate([_MOST * ones, np.ones(len(scores))]),
+        np.concatenate([0.0 * one[0], scores, 0.0 * one[2]]),
+        np.concatenate([one[0], _EXPRESSION_SPREAD * one[1], _ERRORS * one[2]]),
+        np.concatenate([-_MOST * one[0], 0.0 * one[1], -_MOST_ERROR * one[2]]),
+        np.concatenate([_MOST * one[0], one[1], _MOST_ERROR * one[2]]),
     )
+
+
+def _errors(face: PhotoFace) -> FloatArray:
+    """(modes, n, 2) how the landmarks err together, in pixels of the photo."""
+    x, y = face.across * face.eye_distance
+    level = anchors().modes[:, :_MESH_LANDMARKS]
+    return np.stack([level @ (x, -y), level @ (y, x)], axis=-1)
 
 
 def _first_camera(face: PhotoFace, basis: _Basis) -> PhotoCamera:
