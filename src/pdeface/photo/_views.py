@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +42,14 @@ class View(NamedTuple):
         scaled = fractions * (*self.size, self.size[0])
         return np.asarray(scaled + (*self.corner, 0.0))
 
+    def enlarged(self, x: float, y: float) -> View:
+        """The view of a smaller copy of the photo, as one of the photo."""
+        corner, size = (
+            (self.corner[0] * x, self.corner[1] * y),
+            (self.size[0] * x, self.size[1] * y),
+        )
+        return View(self.pixels, corner, size)
+
 
 def tries(photo: Pixels) -> Iterator[list[View]]:
     """Lists of views, the likeliest first.
@@ -52,11 +60,17 @@ def tries(photo: Pixels) -> Iterator[list[View]]:
     Args:
         photo: (H, W, 3 or 4).
     """
-    height, width = photo.shape[:2]
-    yield [_view(photo, 0, 0, width, height), *_parts(photo, 2)]
+    small = _shrunk(photo)  # once, not in every view
+    height, width = small.shape[:2]
+    ratio = photo.shape[1] / width, photo.shape[0] / height
     margin = round(_MARGIN * max(height, width))
-    yield [_view(photo, -margin, -margin, width + margin, height + margin)]
-    yield list(_parts(photo, 4))
+
+    def in_photo(views: Iterable[View]) -> list[View]:
+        return [view.enlarged(*ratio) for view in views]
+
+    yield in_photo([_view(small, 0, 0, width, height), *_parts(small, 2)])
+    yield in_photo([_view(small, -margin, -margin, width + margin, height + margin)])
+    yield in_photo(_parts(small, 4))
 
 
 def around(face: PhotoFace, photo: Pixels) -> View:
