@@ -100,7 +100,7 @@ def test_the_core_imports_numpy_alone(room: str) -> None:
     assert packages_imported_by(f"import pdeface.{room}") == {"pdeface", "numpy"}
 
 
-@pytest.mark.parametrize("room", ["texture", "formats", "pictures"])
+@pytest.mark.parametrize("room", ["texture", "formats", "pictures", "photo"])
 def test_the_other_rooms_import_the_rest_when_it_is_used(room: str) -> None:
     assert packages_imported_by(f"import pdeface.{room}") == {"pdeface", "numpy"}
 

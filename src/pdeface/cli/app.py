@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import pdeface
-from pdeface.cli import animate, controls, export, info, make, paper, render
+from pdeface.cli import animate, controls, export, info, make, paper, points, render
 from pdeface.errors import InputError, PDEFaceError
 
 __all__ = ["app", "run"]
@@ -27,6 +27,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command("make")(make.make)
+app.command("points")(points.points)
 app.command("export")(export.export)
 app.command("render")(render.render)
 app.command("animate")(animate.animate)
@@ -58,6 +59,7 @@ def _pdeface(
     \b
     Examples:
       pdeface make -o face.glb -o face.pdeface    the bundled portrait as a textured face
+      pdeface make me.jpg -o me.glb               a photo of your own
       pdeface export face.pdeface -o face.obj     another format, any mesh size
       pdeface render face.pdeface -o face.png     a picture of it
       pdeface animate face.pdeface talk -o a.glb  a face that talks

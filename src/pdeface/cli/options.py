@@ -15,10 +15,12 @@ __all__ = [
     "DEFAULT_MESH",
     "ClampOption",
     "ExpressionsOption",
+    "FaceNumberOption",
     "FacePath",
     "Join",
     "JoinOption",
     "MeshOption",
+    "ModelOption",
     "OpeningsOption",
     "QuietOption",
     "SetOption",
@@ -73,6 +75,24 @@ Openings = Literal["cut", "none"]
 OpeningsOption = Annotated[
     Openings,
     typer.Option("--openings", help="Eyes and mouth that open, or the paper's closed surface."),
+]
+FaceNumberOption = Annotated[
+    int,
+    typer.Option(
+        "--face",
+        metavar="NUMBER",
+        min=1,
+        help="Which face of a photo of several, counted from the largest.",
+    ),
+]
+ModelOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--model",
+        metavar="FILE",
+        help="MediaPipe's face_landmarker.task; by default the file that PDEFACE_MODEL names, or "
+        "else one that is downloaded once.",
+    ),
 ]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="Say nothing but errors.")]
 

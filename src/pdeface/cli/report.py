@@ -41,6 +41,16 @@ class Report:
         with console.status(Text(what)) as status:
             yield lambda text: status.update(Text(text))
 
+    def note(self, text: str) -> None:
+        """Tell, on stderr, what the user may want to know or change."""
+        if not self._quiet:
+            typer.echo(f"note: {text}", err=True)
+
+    def warn(self, text: str) -> None:
+        """Tell, on stderr, what will make the result a poor one."""
+        if not self._quiet:
+            typer.echo(f"warning: {text}", err=True)
+
     def wrote(self, *paths: Path) -> None:
         """Tell that a file was written, or all those of a sequence, and how large they are."""
         if self._quiet:

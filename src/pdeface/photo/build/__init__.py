@@ -1,0 +1,1 @@
+"""The command that measures where on the face the landmarks lie."""
