@@ -60,27 +60,31 @@ class FaceParts:
         self._face = face
         self._rest = face.curves.points + person(face.weights, face.curves.shape)
         self._weights = {n: w for n, w in face.weights.items() if CONTROLS[n].kind == "expression"}
-        self._outline = self._sampled(self._rest, np.zeros_like(self._rest))
+        rest = self._sampled(self._rest, np.zeros_like(self._rest))
         lids = [self._blinking(blink) for blink in _BLINKS]
-        self._anatomy = placed(self._outline, lids)
+        self._anatomy = placed(rest, lids)
 
     def curves(self, name: str) -> FloatArray:
         """(K, M, 3) closed curves of a part as the face is now, metres."""
-        return self._anatomy.curves(name) + self.moved(name, self._displacement, self._weights)
+        return self._anatomy.curves(name) + self.moved(name, self._own, self._weights)
 
-    def moved(self, name: str, by: Displacement, weights: Mapping[str, float]) -> FloatArray:
+    def outline(self, by: Displacement) -> Outline:
+        """How far a displacement of the face's curves takes the margins of its openings."""
+        return self._sampled(by.smooth, by.parting)
+
+    def moved(self, name: str, outline: Outline, weights: Mapping[str, float]) -> FloatArray:
         """(K, M, 3) displacement of a part's curves where expressions displace the face's.
 
         Args:
             name: of the part.
-            by: displacement of the curves of the face.
-            weights: the expressions that displace them.
+            outline: from :meth:`outline`.
+            weights: the expressions that displace the face.
         """
-        return self._anatomy.moved(name, self._sampled(by.smooth, by.parting), weights)
+        return self._anatomy.moved(name, outline, weights)
 
     @cached_property
-    def _displacement(self) -> Displacement:
-        return self._expressed(self._weights)
+    def _own(self) -> Outline:
+        return self.outline(self._expressed(self._weights))
 
     def _blinking(self, blink: float) -> Outline:
         moved = self._expressed({"eyeBlinkLeft": blink, "eyeBlinkRight": blink})

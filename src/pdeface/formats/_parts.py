@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.anatomy import Part, textures
+from pdeface.anatomy import Outline, Part, textures
 from pdeface.formats._targets import MorphTargets
 from pdeface.parts import FaceParts, has_parts
 
@@ -52,8 +52,9 @@ def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
         return
     parts = FaceParts(targets.face)
     detail = min(1.0, max(_COARSEST, targets.surface.uv_mesh.rows / _ROWS))
+    outlines = [parts.outline(moved) for moved in targets.moved]
     for name, part in parts.parts.items():
-        yield _sampled(targets, parts, _sized(part, detail), name)
+        yield _sampled(targets, parts, outlines, _sized(part, detail), name)
 
 
 def _sized(part: Part, detail: float) -> Part:
@@ -61,12 +62,14 @@ def _sized(part: Part, detail: float) -> Part:
     return replace(part, rows=rows, columns=max(_FEWEST_COLUMNS, round(part.columns * detail)))
 
 
-def _sampled(targets: MorphTargets, parts: FaceParts, part: Part, name: str) -> PartSample:
+def _sampled(
+    targets: MorphTargets, parts: FaceParts, outlines: list[Outline], part: Part, name: str
+) -> PartSample:
     curves = parts.curves(name)
     normals = part.normals(curves)
     differences: list[tuple[Float32, Float32] | None] = []
-    for target, moved in zip(targets.names, targets.moved, strict=True):
-        by = parts.moved(name, moved, targets.controls(target))
+    for target, outline in zip(targets.names, outlines, strict=True):
+        by = parts.moved(name, outline, targets.controls(target))
         if not np.abs(by).max() > _STILL:
             differences.append(None)
             continue

@@ -31,7 +31,7 @@ Float64 = NDArray[np.float64]
 Expressions = Literal["all"] | Sequence[str] | None
 """Which expressions become morph targets: ``"all"``, some by name, or None for the default."""
 
-# Differences of all targets together: 51 of them on a mesh of 877,000 vertices.
+# Differences of all targets together: 52 of them on a mesh of 877,000 vertices.
 _LARGEST = 1 << 30
 # Numbers evaluated in one batch.
 _BATCH = 1 << 23
