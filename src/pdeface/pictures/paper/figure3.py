@@ -32,6 +32,7 @@ def figure3(face: Face) -> Figure:
         render(
             face,
             style="shaded",
+            openings="none",
             mesh=DENSE,
             join=join,
             light="raking",

@@ -86,8 +86,8 @@ def boxes(face: Face, steps: UVTexture) -> dict[str, Box]:
     count, each = face.curves.shape
     white = {"size": SMALL, "background": "white"}
     curves = render(face, style="curves", **white)  # type: ignore[arg-type]
-    clay = render(face, style="uvmesh", **white)  # type: ignore[arg-type]
-    worn = render(textured, **white)  # type: ignore[arg-type]
+    clay = render(face, style="uvmesh", openings="none", **white)  # type: ignore[arg-type]
+    worn = render(textured, openings="none", **white)  # type: ignore[arg-type]
     r = ROWS
     return {
         "curves": Box(

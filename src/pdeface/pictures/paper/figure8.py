@@ -31,10 +31,12 @@ def figure8(face: Face) -> Figure:
     weights = extremes(face.curves)
     opposite = {name: -weight for name, weight in weights.items()}
     faces = [face, face.with_weights(weights), face.with_weights(opposite)]
-    camera = panel_camera(np.concatenate([f.mesh().vertices for f in faces]), "profile")
+    camera = panel_camera(
+        np.concatenate([f.mesh(openings="none").vertices for f in faces]), "profile"
+    )
     # In (c) it is the same: the curves are linear in the sliders, whose ends are opposite.
     moved = 1000.0 * moved_by(faces[1])
-    folds = sum(folded_cells(f.mesh(*mesh)) for f in faces[1:] for mesh in MESHES)
+    folds = sum(folded_cells(f.mesh(*mesh, openings="none")) for f in faces[1:] for mesh in MESHES)
     meshes = " and ".join(f"{rows} by {columns}" for rows, columns in MESHES)
     return Figure(
         8,
@@ -110,4 +112,6 @@ def folded_cells(mesh: FaceMesh) -> int:
 
 
 def _panel(face: Face, style: str, camera: Camera) -> Pixels:
-    return draw_solids(STYLES[style](face, camera, Options(height=PANEL[1])), camera)
+    return draw_solids(
+        STYLES[style](face, camera, Options(height=PANEL[1], openings="none")), camera
+    )

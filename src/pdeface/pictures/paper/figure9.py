@@ -63,11 +63,13 @@ def figure9(face: Face, steps: UVTexture) -> Figure:
 
 def moved_by_side(before: Face, after: Face) -> tuple[float, float]:
     """Millimetres by which the subject's right and left half of the face move at most."""
-    still, moved = (f.mesh(109, 161).vertices.reshape(109, 161, 3) for f in (before, after))
+    still, moved = (
+        f.mesh(109, 161, openings="none").vertices.reshape(109, 161, 3) for f in (before, after)
+    )
     distance = 1000.0 * np.linalg.norm(moved - still, axis=-1)
     middle = distance.shape[1] // 2
     return float(distance[:, :middle].max()), float(distance[:, middle + 1 :].max())
 
 
 def _panel(face: Face, view: str = "front", style: str = "textured") -> Pixels:
-    return render(face, view=view, style=style, size=PANEL, background="white")
+    return render(face, view=view, style=style, size=PANEL, background="white", openings="none")
