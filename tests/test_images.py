@@ -102,3 +102,12 @@ def test_without_pillow(monkeypatch: pytest.MonkeyPatch) -> None:
     for call, argument in ((images.encode_png, NOISE), (images.decode, data)):
         with pytest.raises(MissingExtraError, match="pip install"):
             call(argument)
+
+
+@pytest.mark.parametrize("channels", [3, 4])
+def test_a_png_without_pillow_is_read_by_pillow(channels: int) -> None:
+    pixels = np.random.default_rng(2).integers(0, 256, (7, 5, channels), dtype=np.uint8)
+    data = images.encode_plain(pixels)
+    np.testing.assert_array_equal(images.decode(data), pixels)
+    with Image.open(io.BytesIO(data)) as picture:
+        picture.verify()

@@ -92,7 +92,7 @@ def test_a_mesh_that_cannot_be_is_refused(arguments, message):
 def test_a_mesh_turned_about_a_point() -> None:
     points = np.array([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]])
     cells = UVMesh(2, 2)
-    mesh = FaceMesh(points, points, points[:, :2], cells.quads, cells.triangles, (2, 2))
+    mesh = FaceMesh(points, points, points[:, :2], cells.quads, cells.fans, cells.triangles, (2, 2))
     quarter = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])  # +Z to +X
     found = mesh.turned(quarter, (1.0, 0.0, 0.0))
     np.testing.assert_allclose(found.vertices, [[1, 0, 0], [1, 2, 1], [4, 0, 1]])

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import struct
 import warnings
+import zlib
 from types import ModuleType
 from typing import Any
 
@@ -81,6 +83,26 @@ def encode_compact(pixels: Pixels) -> bytes:
     if has_holes(pixels) or len(encode_png(band)) <= len(encode_jpeg(band)):
         return encode_png(pixels)
     return encode_jpeg(pixels)
+
+
+def encode_plain(pixels: Pixels) -> bytes:
+    """PNG bytes of (H, W, 3 or 4) texels, lossless, without Pillow: for textures that the library
+    makes itself, whose files the core must be able to write.
+
+    Rows are stored as differences from the one above (filter 2 of the PNG specification).
+    """
+    height, width, channels = pixels.shape
+    rows = np.ascontiguousarray(pixels).reshape(height, -1)
+    above = np.concatenate([np.zeros_like(rows[:1]), rows[:-1]])
+    filtered = np.full((height, 1 + rows.shape[1]), 2, np.uint8)
+    filtered[:, 1:] = rows - above
+    header = struct.pack(">IIBBBBB", width, height, 8, 2 if channels == 3 else 6, 0, 0, 0)
+    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(filtered.tobytes(), 9)), (b"IEND", b""))
+    body = b"".join(
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        for name, data in chunks
+    )
+    return b"\x89PNG\r\n\x1a\n" + body
 
 
 def has_holes(pixels: Pixels) -> bool:

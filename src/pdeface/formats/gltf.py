@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.controls.neck import PIVOT
+from pdeface.errors import MissingExtraError
 from pdeface.face import Face
 from pdeface.files import PathLike, atomic_write
 from pdeface.formats._animation import Animation, add_animation
@@ -17,7 +19,7 @@ from pdeface.formats._parts import PartSample, sampled_parts
 from pdeface.formats._sample import Sample
 from pdeface.formats._shared import GENERATOR, ROUGHNESS, SKIN, linear
 from pdeface.formats._targets import MorphTargets
-from pdeface.images import encode_compact, has_holes, media_type
+from pdeface.images import encode_compact, encode_plain, has_holes, media_type
 
 __all__ = ["add_face", "begin", "build_gltf", "write_glb", "write_gltf"]
 
@@ -143,9 +145,23 @@ def _add_part_material(document: GltfBuilder, part: PartSample) -> int:
     surface = {
         "metallicFactor": 0.0,
         "roughnessFactor": PART_ROUGHNESS[part.material],
-        "baseColorTexture": {"index": _add_image(document, encode_compact(part.texture))},
+        "baseColorTexture": {"index": _add_image(document, _encoded(part.texture))},
     }
     return document.add("materials", name=part.material, pbrMetallicRoughness=surface)
+
+
+@lru_cache(maxsize=32)
+def _encoded_bytes(shape: tuple[int, ...], pixels: bytes) -> bytes:
+    texture = np.frombuffer(pixels, np.uint8).reshape(shape)
+    try:
+        return encode_compact(texture)
+    except MissingExtraError:
+        return encode_plain(texture)
+
+
+def _encoded(texture: NDArray[np.uint8]) -> bytes:
+    """A picture file of a part's texture, which is the same for many faces."""
+    return _encoded_bytes(texture.shape, texture.tobytes())
 
 
 def _add_primitive(
