@@ -30,12 +30,13 @@ def test_the_command_rebuilds_what_ships(shared_data: Path, tmp_path: Path) -> N
             assert np.abs(difference).max() < 4e-6
 
 
-def test_splitting_keeps_the_whole_and_parts_nothing_beyond_the_corners() -> None:
+@pytest.mark.parametrize("upper_share", [0.0, 0.5, 1.0])
+def test_splitting_keeps_the_whole_and_parts_nothing_beyond_the_corners(upper_share) -> None:
     from pdeface.controls.build.openings import Opening, split
 
     v = np.linspace(0.0, np.pi, 184)
     samples = np.random.default_rng(0).normal(size=(217, 184, 3))
-    mouth = Opening("mouth_seam_upper", "mouth_seam_lower", 1.2, np.pi - 1.2, 5.0)
+    mouth = Opening("mouth_seam_upper", "mouth_seam_lower", 1.2, np.pi - 1.2, 5.0, upper_share)
     smooth, parting = split(samples, v, [mouth])
     np.testing.assert_allclose(smooth + parting, samples, atol=1e-15)
     inside = (v > 1.4) & (v < np.pi - 1.4)

@@ -48,11 +48,11 @@ class Sampler:
         u = np.linspace(0.0, 1.0, SAMPLES[0])
         self._triangle, self._weights = face.chart.anchors(*face.st(u, self.v))
         self.openings = [
-            _opening("mouth_seam_upper", "mouth_seam_lower", face, closed.lips[0], 5.0)
+            _opening("mouth_seam_upper", "mouth_seam_lower", face, closed.lips[0], 5.0, 0.0)
         ]
         for lids in closed.lids.values():
             margins = "upper_lid_margin", "lower_lid_margin"
-            self.openings.append(_opening(*margins, face, lids[0], 4.0))
+            self.openings.append(_opening(*margins, face, lids[0], 4.0, 1.0))
 
     def displacements(self, offsets: FloatArray) -> FloatArray:
         """(U, V, 3) displacements of the samples, metres, from (vertices, 3) in centimetres."""
@@ -75,10 +75,15 @@ def _closed(moved: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def _opening(
-    upper: str, lower: str, face: Parameterisation, line: FloatArray, reach: float
+    upper: str,
+    lower: str,
+    face: Parameterisation,
+    line: FloatArray,
+    reach: float,
+    upper_share: float,
 ) -> Opening:
     start, end = sorted(face.uv_of(line[[0, -1]])[:, 1])
-    return Opening(upper, lower, float(start), float(end), reach)
+    return Opening(upper, lower, float(start), float(end), reach, upper_share)
 
 
 def build(folder: Path, output: Path) -> None:

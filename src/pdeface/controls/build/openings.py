@@ -28,6 +28,8 @@ class Opening:
         upper, lower: names of the rows on its two sides.
         start, end: v of its corners, radians.
         reach: over how many rows the jump fades out on both sides.
+        upper_share: what the upper side takes of the jump, 0 to 1; the lower takes the rest. The
+            side that moves should have it, so that what the other does is fitted without a break.
         softness: over how many radians it fades out towards the corners.
     """
 
@@ -36,6 +38,7 @@ class Opening:
     start: float
     end: float
     reach: float
+    upper_share: float
     softness: float = 0.12
 
     def window(self, v: FloatArray) -> FloatArray:
@@ -44,12 +47,14 @@ class Opening:
         return rise**2 * (3.0 - 2.0 * rise) * fall**2 * (3.0 - 2.0 * fall)
 
     def share(self, row: FloatArray) -> FloatArray:
-        """What each row takes of the jump: -1/2 on the upper side, +1/2 on the lower."""
+        """What each row takes of the jump: ``upper_share`` on the upper side, against it, and the
+        rest on the lower."""
         upper, lower = ROWS[self.upper], ROWS[self.lower]
         away = np.where(row < upper, upper - row, np.maximum(row - lower, 0.0)) / self.reach
         fade = (1.0 - away.clip(0.0, 1.0) ** 2) ** 3
-        between = ((row - upper) / (lower - upper)).clip(0.0, 1.0) - 0.5
-        return np.where((row > upper) & (row < lower), between, np.sign(between) * 0.5 * fade)
+        between = ((row - upper) / (lower - upper)).clip(0.0, 1.0) - self.upper_share
+        sides = np.where(row <= upper, -self.upper_share, 1.0 - self.upper_share)
+        return np.where((row > upper) & (row < lower), between, sides * fade)
 
 
 def split(
