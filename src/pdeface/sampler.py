@@ -6,6 +6,7 @@ openings have parameters of their own and a row of weights each.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -13,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.controls import slits
-from pdeface.pde import GridEvaluator, Join
+from pdeface.pde import Continuity, GridEvaluator, Join
 from pdeface.pde.differential import unit_normal
 from pdeface.pde.scattered import point_weights
 from pdeface.uvmesh import UVMesh
@@ -60,24 +61,12 @@ class Sampler:
         self._moved, u, v, outside = _moved_nodes(mesh)
         self._weights = np.zeros((3, 0, 0))
         if len(self._moved):
+            options = {"a": a, "modes": modes, "join": join}
             layers = [(u, {})] if parting is None else [(u, {}), (outside, parting)]
+            orders = (0, 0), (1, 0), (0, 1)
             self._weights = np.array(
-                [
-                    np.concatenate(
-                        [
-                            # Beyond its curve the displacement of a side goes on as it is there.
-                            np.where((own == u)[:, None] | (du == 0), 1.0, 0.0)
-                            * point_weights(
-                                shape, own, v, du, dv,
-                                a=a, modes=modes, join=join, continuity=continuity,
-                            )
-                            for own, continuity in layers
-                        ],
-                        axis=1,
-                    )
-                    for du, dv in ((0, 0), (1, 0), (0, 1))
-                ]
-            )  # fmt: skip
+                [_weights(shape, u, v, layers, order, options) for order in orders]
+            )
 
     def positions(self, points: Any) -> FloatArray:
         """(..., V, 3) positions of the nodes of faces with (..., K or 2 K, M, 3) data points."""
@@ -111,6 +100,25 @@ def sampler(
 ) -> Sampler:
     """The :class:`Sampler` of these, kept for the next face."""
     return Sampler(shape, mesh, a, modes, join, parts, mirrored)
+
+
+def _weights(
+    shape: tuple[int, int],
+    u: FloatArray,
+    v: FloatArray,
+    layers: Sequence[tuple[FloatArray, Mapping[int, Continuity]]],
+    order: tuple[int, int],
+    options: Mapping[str, Any],
+) -> FloatArray:
+    """(nodes, points of all layers) weights of a derivative, each layer read at a u of its own."""
+    du, dv = order
+    of_layers = []
+    for own, continuity in layers:
+        weights = point_weights(shape, own, v, du, dv, continuity=continuity, **options)
+        # Beyond its curve the displacement of a side goes on as it is there: it has no slope.
+        weights[(own != u) & (du > 0)] = 0.0
+        of_layers.append(weights)
+    return np.concatenate(of_layers, axis=1)
 
 
 def _listed(grid: Array) -> FloatArray:
