@@ -9,7 +9,7 @@ import pdeface
 from pdeface.controls import Displacement
 from pdeface.curves import BoundaryCurves
 from pdeface.face import Face
-from pdeface.parts import FaceParts, has_parts
+from pdeface.parts import FaceParts, has_parts, iris_colour
 
 
 @pytest.mark.parametrize("seed", [None, 0, 1])
@@ -61,3 +61,16 @@ def test_faces_without_openings_have_no_parts() -> None:
     assert has_parts(pdeface.random(1))
     assert not has_parts(Face(BoundaryCurves(np.zeros((28, 46, 3)))))
     assert not has_parts(Face(BoundaryCurves(np.random.default_rng(1).normal(size=(7, 8, 3)))))
+
+
+def test_the_iris_has_the_colour_that_the_texture_shows() -> None:
+    from pdeface.anatomy.textures import IRIS_COLOUR
+    from pdeface.texture import portrait, uv_texture
+
+    assert iris_colour(pdeface.neutral()) == IRIS_COLOUR
+    image, points = portrait()
+    red, green, blue = iris_colour(pdeface.neutral().with_texture(uv_texture(image, points).image))
+    assert red > green > blue, "the subject of the portrait has brown eyes"
+    assert 50 < red < 140
+    blues = np.full((64, 64, 3), (90, 110, 150), np.uint8)
+    assert iris_colour(pdeface.neutral().with_texture(blues)) in (IRIS_COLOUR, (90, 110, 150))

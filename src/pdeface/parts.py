@@ -14,13 +14,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.anatomy import OPENINGS, PARTS, Margins, Outline, Part, placed
+from pdeface.anatomy.textures import IRIS_COLOUR
 from pdeface.controls import CONTROLS, Displacement, expressed, person
 from pdeface.controls.seams import seam
 from pdeface.face import Face
+from pdeface.template import openings
 
-__all__ = ["FaceParts", "has_parts"]
+__all__ = ["FaceParts", "has_parts", "iris_colour"]
 
 FloatArray = NDArray[np.float64]
+
+# Of an eye's width to either side of its middle, of its height off the lids, and by brightness.
+_MIDDLE, _INSET, _IRIS_LIGHT = 0.17, 0.2, (0.3, 0.6)
+_FEWEST_TEXELS = 40
 
 # Blinks of which the eyeballs keep clear, lest they show through a lid on its way.
 _BLINKS = (0.25, 0.5, 0.75, 1.0)
@@ -39,6 +45,34 @@ def has_parts(face: Face) -> bool:
         upper, _ = seam(name, face.curves.shape).lines(points, np.zeros_like(points))
         widths.append(float(np.linalg.norm(upper[-1] - upper[0])))
     return min(widths) > NARROWEST
+
+
+def iris_colour(face: Face) -> tuple[int, int, int]:
+    """sRGB of the irises that the texture of a face shows, or a grey blue where it has none.
+
+    The eyes of a texture are its photo's: between the lids, in the middle, lie pupil, iris, white
+    and highlights. The iris is what is neither among the darkest nor among the brighter half.
+    """
+    if face.texture is None:
+        return IRIS_COLOUR
+    height, width = face.texture.shape[:2]
+    u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
+    found = []
+    for opening in openings()[:2]:
+        start, end = opening.corners
+        upper, lower = (line + (u[:, None] * 0.0) for line in opening.lines(v))
+        inset = _INSET * (lower - upper)
+        inside = (u[:, None] > upper + inset) & (u[:, None] < lower - inset)
+        inside &= np.abs(v - 0.5 * (start + end)) < _MIDDLE * (end - start)
+        found.append(face.texture[inside])
+    texels = np.concatenate(found)[:, :3].astype(np.float64)
+    if len(texels) < _FEWEST_TEXELS:
+        return IRIS_COLOUR
+    light = texels @ (0.2126, 0.7152, 0.0722)
+    low, high = np.quantile(light, _IRIS_LIGHT)
+    colour = np.median(texels[(light >= low) & (light <= high)], axis=0)
+    red, green, blue = (int(c) for c in np.rint(colour))
+    return red, green, blue
 
 
 class FaceParts:

@@ -49,7 +49,9 @@ def test_every_feature_lands_where_the_face_has_it(face_points, follow_face, til
     turn = np.array([[cos, -sin], [sin, cos]])
     points = face_points.moved(lambda p: 3.0 * (p - (80, 100)) @ turn.T + 420, (840, 840))
     image = dots(points.array, (840, 840))
-    result = uv_texture(image, points, (400, 400), finish=False, follow_face=follow_face)
+    result = uv_texture(
+        image, points, (400, 400), finish=False, margins=False, follow_face=follow_face
+    )
     texture = result.image[..., 0].astype(float)
     for x, y in result.target_mesh[1:-1, 1:-1].reshape(-1, 2):
         left, top = max(int(x) - 12, 0), max(int(y) - 12, 0)
@@ -94,7 +96,9 @@ def test_the_meshes_are_seven_by_seven_around_the_points(face_points, photo, tar
 
 def test_with_a_straight_grid_the_texture_is_what_the_paper_reads_off(face_points, photo):
     """One resampling or, as in the paper, two: the same picture, but for a little blur."""
-    steps = uv_texture(photo, face_points, (270, 400), finish=False, follow_face=False)
+    steps = uv_texture(
+        photo, face_points, (270, 400), finish=False, margins=False, follow_face=False
+    )
     read = steps.target_image()
     for row in range(3, 24):
         for column in range(12, 29):
@@ -135,9 +139,11 @@ def oval(inner: tuple[int, ...], outer: tuple[int, ...]) -> NDArray[np.uint8]:
 
 
 def test_background_does_not_reach_the_face(face_points):
-    texture = uv_texture(oval(SKIN, GREEN), face_points, (200, 200)).image
+    texture = uv_texture(oval(SKIN, GREEN), face_points, (200, 200), margins=False).image
     np.testing.assert_allclose(texture, np.broadcast_to(SKIN, texture.shape), atol=3)
-    plain = uv_texture(oval(SKIN, GREEN), face_points, (200, 200), finish=False).image
+    plain = uv_texture(
+        oval(SKIN, GREEN), face_points, (200, 200), finish=False, margins=False
+    ).image
     assert (plain[:, :10] == GREEN).all(axis=-1).any()
 
 
@@ -156,7 +162,7 @@ def test_hair_beside_the_forehead_stays_and_below_it_gives_way_to_skin(face_poin
 def test_transparent_pixels_do_not_bleed(face_points):
     image = oval((*SKIN, 255), (*GREEN, 0))
     for finish in (True, False):
-        texture = uv_texture(image, face_points, (200, 200), finish=finish).image
+        texture = uv_texture(image, face_points, (200, 200), finish=finish, margins=False).image
         np.testing.assert_allclose(texture, np.broadcast_to(SKIN, texture.shape), atol=3)
 
 
@@ -166,7 +172,7 @@ def test_a_tightly_cut_photo_still_covers_the_face(face_points, photo):
     high = np.ceil(face_points.array.max(axis=(0, 1))).astype(int)
     part = photo[low[1] : high[1], low[0] : high[0]]
     points = face_points.moved(lambda p: p - low, (part.shape[1], part.shape[0]))
-    texture = uv_texture(part, points, (120, 120)).image
+    texture = uv_texture(part, points, (120, 120), margins=False).image
     assert texture.shape == (120, 120, 3)
     # Smooth resampling may overshoot a little beside the cut.
     assert (texture.max(axis=(0, 1)) <= part.max(axis=(0, 1)) + 8.0).all()
@@ -174,7 +180,7 @@ def test_a_tightly_cut_photo_still_covers_the_face(face_points, photo):
 
 
 def test_the_finish_leaves_the_face_itself_alone(face_points, photo):
-    steps = uv_texture(photo, face_points, (200, 200))
+    steps = uv_texture(photo, face_points, (200, 200), margins=False)
     columns = slice(90, 110)
     np.testing.assert_array_equal(steps.image[:150, columns], steps.warped[:150, columns])
     assert (steps.image[:, 0] != steps.warped[:, 0]).any()
@@ -186,8 +192,10 @@ def test_teeth_are_left_out_of_the_lips(face_points):
     )
     image = np.zeros((200, 160, 3), np.uint8)
     image[117:126] = 255
-    open_mouth = uv_texture(image, points, (540, 540), finish=False).image[:, 270, 0]
-    closed = uv_texture(image, face_points, (540, 540), finish=False).image[:, 270, 0]
+    open_mouth = uv_texture(image, points, (540, 540), finish=False, margins=False).image[:, 270, 0]
+    closed = uv_texture(image, face_points, (540, 540), finish=False, margins=False).image[
+        :, 270, 0
+    ]
     seam = round(540 * template.row_u("mouth_seam_upper")), 540 * 19 // 27
     bright = np.flatnonzero(open_mouth > 128)
     assert seam[0] - 4 <= bright.min() < bright.max() <= seam[1] + 4
@@ -229,7 +237,7 @@ def test_the_size_follows_the_photo_within_limits(face_points, photo):
 
 def test_a_photo_as_large_as_a_phone_s(face_points):
     photo = np.full((4096, 3277, 3), SKIN, np.uint8)
-    texture = uv_texture(photo, face_points).image
+    texture = uv_texture(photo, face_points, margins=False).image
     assert max(texture.shape) > 3000
     assert (texture == SKIN).all()
 

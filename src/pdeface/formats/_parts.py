@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pdeface.anatomy import Outline, Part, textures
 from pdeface.formats._targets import MorphTargets
-from pdeface.parts import FaceParts, has_parts
+from pdeface.parts import FaceParts, has_parts, iris_colour
 
 __all__ = ["PartSample", "sampled_parts"]
 
@@ -83,7 +83,7 @@ def _sampled(
         part.grid.texcoords.astype(np.float32),
         part.grid.triangles,
         differences,
-        textures.texture(name),
+        textures.texture(name, iris_colour(targets.face)),
     )
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pdeface.anatomy import textures
 from pdeface.controls.neck import PIVOT, rotations
 from pdeface.face import Face
-from pdeface.parts import FaceParts, has_parts
+from pdeface.parts import FaceParts, has_parts, iris_colour
 from pdeface.pictures.camera import Camera
 from pdeface.pictures.light import Rig, light_up
 from pdeface.pictures.solid import Solid
@@ -39,11 +39,18 @@ def inside(
         return []
     parts = FaceParts(face)
     turn = np.eye(3) if head is None else rotations(head)
-    return [_solid(parts, name, camera, rig, albedo, turn) for name in parts.parts]
+    iris = iris_colour(face)
+    return [_solid(parts, name, camera, rig, albedo, turn, iris) for name in parts.parts]
 
 
 def _solid(
-    parts: FaceParts, name: str, camera: Camera, rig: Rig, albedo: Any, turn: NDArray[np.float64]
+    parts: FaceParts,
+    name: str,
+    camera: Camera,
+    rig: Rig,
+    albedo: Any,
+    turn: NDArray[np.float64],
+    iris: tuple[int, int, int],
 ) -> Solid:
     part, curves = parts.parts[name], parts.curves(name)
     vertices = (part.positions(curves) - PIVOT) @ turn.T + PIVOT
@@ -54,4 +61,6 @@ def _solid(
     colors = light_up(vertices, normals, white, camera, rig)
     if albedo is not None:
         return Solid(vertices, part.grid.triangles, colors)
-    return Solid(vertices, part.grid.triangles, colors, part.grid.texcoords, textures.texture(name))
+    return Solid(
+        vertices, part.grid.triangles, colors, part.grid.texcoords, textures.texture(name, iris)
+    )

@@ -20,6 +20,7 @@ from pdeface.images import MAX_SIDE
 from pdeface.texture import _finish, _grid
 from pdeface.texture._front import neutral_front, straight_front
 from pdeface.texture._lattice import lattice_names, photo_lattice
+from pdeface.texture._margins import clean_margins
 from pdeface.texture._result import UVTexture
 from pdeface.texture._upright import set_upright
 from pdeface.texture.points import FeaturePoints
@@ -40,6 +41,7 @@ def uv_texture(
     targets: Mapping[str, tuple[float, float]] | None = None,
     *,
     finish: bool = True,
+    margins: bool = True,
     follow_face: bool = True,
     engine: Engine = "auto",
 ) -> UVTexture:
@@ -66,6 +68,8 @@ def uv_texture(
         targets: (u, v) of each feature point on the face; those of the template by default.
         finish: whether to fade the texture's edge, from the face's outline outwards, into the
             skin's colour. Without it the photo's pixels there are stretched to the edge.
+        margins: whether to take the photo's lashes off the upper lids and its teeth off the lips,
+            which would show when the face moves, and draw a fine dark line there instead.
         follow_face: whether the grid of step 1 is the neutral face's; if not, it is straight.
         engine: as for :func:`pdeface.texture.warp`.
 
@@ -91,6 +95,8 @@ def uv_texture(
         hair = _finish.hair_beside(warped, photo, places, uv)
         weights = _finish.trust(uv, shape, hair)
     texture = _finish.finish(warped, weights, float(uv[0, :, 0].mean()), engine)
+    if margins:
+        texture = clean_margins(texture)
     return UVTexture(
         image=texture,
         warped=np.clip(np.rint(warped[..., :3]), 0, 255).astype(np.uint8),

@@ -41,7 +41,7 @@ class Rendered:
 
 def people(count: int, first_seed: int = 0) -> Iterator[Rendered]:
     """The neutral face, if ``first_seed`` is 0, and random people, all with one texture."""
-    texture = uv_texture(*portrait()).image
+    texture = uv_texture(*portrait(), margins=False).image
     for seed in range(first_seed, first_seed + count):
         face = (random(seed) if seed else neutral()).with_texture(texture)
         aside, up = np.random.default_rng([seed, 1]).uniform(-1.0, 1.0, 2)

@@ -101,4 +101,4 @@ def _neutral() -> Face:
 def _portrait_steps() -> UVTexture:
     from pdeface.texture import portrait, uv_texture
 
-    return uv_texture(*portrait())
+    return uv_texture(*portrait(), margins=False)
