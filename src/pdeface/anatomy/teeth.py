@@ -19,8 +19,11 @@ FloatArray = NDArray[np.float64]
 HEIGHT = 0.0165
 """From the biting edge to the end in the gum, metres on the measured head."""
 
-LIP = 0.0030
+LIP = 0.0046
 """Thickness of the lips where they lie on the teeth, metres on the measured head."""
+
+OVERBITE = 0.0018
+"""How much further back the lower arch stands than on the measured head: chins recede."""
 
 SHOWN = 0.0025
 """How much lower both arches stand than on the measured head, whose upper teeth end so high that
@@ -42,6 +45,8 @@ class Teeth:
         self._frame = frame
         self._moves = name == "lower"
         self.rest = frame(_tube(arch(name), name, PARTS[f"{name}_teeth"].shape))
+        if self._moves:
+            self.rest = self.rest - np.array([0.0, 0.0, OVERBITE * frame.scale])
 
     def moved(self, outline: Outline, weights: Mapping[str, float]) -> FloatArray:
         """(K, M, 3) displacement, linear in the weights."""

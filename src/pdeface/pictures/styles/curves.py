@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -41,7 +42,9 @@ def curves(face: Face, camera: Camera, options: Options) -> list[Solid]:
 
 
 def _front(face: Face, camera: Camera, options: Options) -> list[Solid]:
-    ground = skin(options.sample(face), PORCELAIN, camera, rig_named(options.light or "gallery"))
+    # Curves cross the openings: the surface that they lie on is closed.
+    closed = replace(options, openings="none").sample(face)
+    ground = skin(closed, PORCELAIN, camera, rig_named(options.light or "gallery"))
     line, dot = _radii(face, camera)
     count = face.curves.shape[0]
     paths = face.mesh(count, SAMPLES, openings="none").vertices.reshape(count, -1, 3)
