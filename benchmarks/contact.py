@@ -13,7 +13,7 @@ import numpy as np
 
 import pdeface
 from pdeface.controls import slits
-from pdeface.controls.seams import seam
+from pdeface.controls.seams import nearest, seam
 from pdeface.pde import PDESurface
 
 LEVELS = ("28x46", "55x92")
@@ -39,10 +39,7 @@ def lid_gap(face: pdeface.Face) -> np.ndarray:
     moved = face.displacement
     lids = seam("left_eye", face.curves.shape)
     upper, lower = lids.lines(face.curves.points + moved.smooth, moved.parting)
-    start, along = lower[:-1], np.diff(lower, axis=0)
-    t = np.einsum("nsi,si->ns", upper[:, None] - start, along) / (along**2).sum(axis=1)
-    foot = start + t.clip(0.0, 1.0)[..., None] * along
-    return 1000.0 * np.linalg.norm(foot - upper[:, None], axis=2).min(axis=1)
+    return 1000.0 * np.linalg.norm(upper - nearest(lower, upper), axis=1)
 
 
 def overshoot(level: str, head: Path) -> str:

@@ -184,9 +184,10 @@ class Face:
             points = np.concatenate([points, parting])
         shape = self.curves.shape
         evaluator = sampler(shape, grid, self.a, self.modes, join, parting is not None)
+        vertices, normals = evaluator.positions_and_normals(points)
         return FaceMesh(
-            vertices=evaluator.positions(points),
-            normals=evaluator.normals(points),
+            vertices=vertices,
+            normals=normals,
             texcoords=grid.texcoords,
             quads=grid.quads,
             fans=grid.fans,

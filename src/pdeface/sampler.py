@@ -70,14 +70,25 @@ class Sampler:
 
     def positions(self, points: Any) -> FloatArray:
         """(..., V, 3) positions of the nodes of faces with (..., K or 2 K, M, 3) data points."""
-        positions = _listed(self._grid.positions(points))
+        return self._with_moved_positions(_listed(self._grid.positions(points)), points)
+
+    def positions_and_normals(self, points: Any) -> tuple[FloatArray, FloatArray]:
+        """Both together, for less than one after the other."""
+        positions, normals = map(_listed, self._grid.positions_and_normals(points))
+        return self._with_moved_positions(positions, points), self._with_moved_normals(
+            normals, points
+        )
+
+    def normals(self, points: Any) -> FloatArray:
+        """(..., V, 3) unit outward normals; zero where the surface is degenerate."""
+        return self._with_moved_normals(_listed(self._grid.normals(points)), points)
+
+    def _with_moved_positions(self, positions: FloatArray, points: Any) -> FloatArray:
         if len(self._moved):
             positions[..., self._moved, :] = self._at(points, 0)
         return positions
 
-    def normals(self, points: Any) -> FloatArray:
-        """(..., V, 3) unit outward normals; zero where the surface is degenerate."""
-        normals = _listed(self._grid.normals(points))
+    def _with_moved_normals(self, normals: FloatArray, points: Any) -> FloatArray:
         if len(self._moved):
             normals[..., self._moved, :] = unit_normal(self._at(points, 1), self._at(points, 2))
         return normals
@@ -88,18 +99,8 @@ class Sampler:
         return np.asarray(self._weights[which] @ flat)
 
 
-@lru_cache(maxsize=16)
-def sampler(
-    shape: tuple[int, int],
-    mesh: UVMesh,
-    a: float,
-    modes: int,
-    join: Join,
-    parts: bool,
-    mirrored: bool = False,
-) -> Sampler:
-    """The :class:`Sampler` of these, kept for the next face."""
-    return Sampler(shape, mesh, a, modes, join, parts, mirrored)
+sampler = lru_cache(maxsize=16)(Sampler)
+"""The :class:`Sampler` of these arguments, kept for the next face."""
 
 
 def _weights(

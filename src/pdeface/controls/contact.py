@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from pdeface.controls import measured
 from pdeface.controls.arkit import SOURCES
 from pdeface.controls.measured import Displacement
-from pdeface.controls.seams import seam
+from pdeface.controls.seams import nearest, seam
 
 __all__ = ["COMPANY", "expressed"]
 
@@ -87,17 +87,7 @@ def _closed(
     by_blink = measured.expressions(_sources({blink: 1.0}), size)
     shut = by_others.smooth + by_blink.smooth, by_others.parting + by_blink.parting
     upper, lower = lids.lines(rest + shut[0], shut[1])
-    return lids.moved(weight * (_nearest(upper, lower) - upper), share=1.0)
-
-
-def _nearest(places: FloatArray, line: FloatArray) -> FloatArray:
-    """(n, 3) the place on a line of segments nearest to each of (n, 3) places."""
-    start, along = line[:-1], np.diff(line, axis=0)
-    away = places[:, None] - start
-    t = np.einsum("nsi,si->ns", away, along) / np.einsum("si,si->s", along, along)
-    foot = start + t.clip(0.0, 1.0)[..., None] * along
-    best = np.linalg.norm(foot - places[:, None], axis=2).argmin(axis=1)
-    return np.asarray(foot[np.arange(len(places)), best])
+    return lids.moved(weight * (nearest(lower, upper) - upper), share=1.0)
 
 
 @lru_cache(maxsize=1024)

@@ -19,7 +19,7 @@ from pdeface.pde.scattered import point_weights
 from pdeface.template import openings
 from pdeface.template.layout import PAPER_ROWS
 
-__all__ = ["Seam", "seam"]
+__all__ = ["Seam", "nearest", "seam"]
 
 FloatArray = NDArray[np.float64]
 
@@ -116,6 +116,16 @@ def _solution(
 def _least_squares(system: FloatArray, importance: FloatArray) -> FloatArray:
     damped = np.concatenate([importance * system, DAMPING * np.eye(system.shape[1])])
     return np.asarray(np.linalg.pinv(damped)[:, : len(system)] * importance.T)
+
+
+def nearest(line: FloatArray, places: FloatArray) -> FloatArray:
+    """(n, 3) the place on a line of segments nearest to each of (n, 3) places."""
+    start, along = line[:-1], np.diff(line, axis=0)
+    away = places[:, None] - start
+    t = np.einsum("nsi,si->ns", away, along) / np.einsum("si,si->s", along, along)
+    foot = start + t.clip(0.0, 1.0)[..., None] * along
+    best = np.linalg.norm(foot - places[:, None], axis=2).argmin(axis=1)
+    return np.asarray(foot[np.arange(len(places)), best])
 
 
 @lru_cache(maxsize=16)

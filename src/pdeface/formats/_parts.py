@@ -16,6 +16,9 @@ __all__ = ["PartSample", "sampled_parts"]
 
 Float32 = NDArray[np.float32]
 
+_STILL = 1e-6
+"""Metres by which a target must move some curve of a part to be a target of it."""
+
 # A part is sampled as finely as the face is: its own uv mesh goes with a face of so many rows, and
 # below a quarter of that a tooth would be a block.
 _ROWS, _COARSEST = 109, 0.25
@@ -85,9 +88,6 @@ def _sampled(
         differences,
         textures.texture(name, iris_colour(targets.face)),
     )
-
-
-_STILL = 1e-6
 
 
 def _unit(normals: NDArray[np.float64]) -> Float32:
