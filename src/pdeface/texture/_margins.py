@@ -38,10 +38,10 @@ class _Band(NamedTuple):
     dark: tuple[float, float]
 
 
-_EYE = _Band(2.0, 0.12, 0.8, (0.22, 0.08), (0.70, 0.30))
-_MOUTH = _Band(0.55, 0.50, 0.35, (0.09, 0.09), (0.45, 0.35))
-_TAPER = 0.10
-"""Towards the corners, as a part of the width of an opening."""
+_EYE = _Band(2.1, 0.6, 0.8, (0.22, 0.08), (0.70, 0.30))
+_MOUTH = _Band(0.55, 0.60, 0.35, (0.09, 0.09), (0.45, 0.35))
+_TAPER, _BEYOND = 0.10, 0.08
+"""Over which part of an opening's width the dark lines end at its corners, and the fill beyond."""
 
 
 def clean_margins(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -57,8 +57,9 @@ def clean_margins(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
         band = _MOUTH if opening.name == "mouth" else _EYE
         rows, columns = _window(opening, u, v)
         part = colours[rows, columns]
-        above, below, ends = _distances(opening, u[rows], v[columns])
-        part[...] = _filled(part, above, below, ends, band)
+        above, below = _distances(opening, u[rows], v[columns])
+        part[...] = _filled(part, above, below, _ends(opening, v[columns], _BEYOND), band)
+        ends = _ends(opening, v[columns], 0.0)
         for away, line, dark in zip((above, below), band.line, band.dark, strict=True):
             shade = dark * ends * np.exp(-((np.maximum(away, 0.0) / line) ** 2)) * (away >= 0.0)
             part *= 1.0 - shade[..., None]
@@ -75,16 +76,19 @@ def _window(opening: Opening, u: FloatArray, v: FloatArray) -> tuple[slice, slic
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
 
 
-def _distances(
-    opening: Opening, u: FloatArray, v: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """(H, W) rows above the upper line and below the lower, and 1 fading to 0 at the corners."""
+def _distances(opening: Opening, u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(H, W) rows above the upper line, and below the lower."""
     upper, lower = opening.lines(v)
-    start, end = opening.corners
-    near = np.minimum(v - start, end - v) / (_TAPER * (end - start))
-    ends = near.clip(0.0, 1.0) ** 2 * (3.0 - 2.0 * near.clip(0.0, 1.0))
     scale = PAPER_ROWS - 1.0
-    return scale * (upper - u[:, None]), scale * (u[:, None] - lower), ends * np.ones((len(u), 1))
+    return scale * (upper - u[:, None]), scale * (u[:, None] - lower)
+
+
+def _ends(opening: Opening, v: FloatArray, beyond: float) -> FloatArray:
+    """(W,) 1 within an opening, falling smoothly to 0 a part of its width beyond its corners."""
+    start, end = opening.corners
+    near = (np.minimum(v - start, end - v) / (end - start) + beyond) / (_TAPER + beyond)
+    near = near.clip(0.0, 1.0)
+    return np.asarray(near * near * (3.0 - 2.0 * near))
 
 
 def _filled(
