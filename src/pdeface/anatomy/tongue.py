@@ -20,8 +20,8 @@ FloatArray = NDArray[np.float64]
 # head z, height of the middle, half width and half thickness, metres.
 SECTIONS = np.array(
     [
-        (0.00, 0.028, -0.0470, 0.0150, 0.0100),
-        (0.30, 0.048, -0.0450, 0.0165, 0.0090),
+        (0.00, 0.038, -0.0470, 0.0150, 0.0100),
+        (0.30, 0.052, -0.0450, 0.0165, 0.0090),
         (0.55, 0.066, -0.0435, 0.0165, 0.0075),
         (0.75, 0.081, -0.0418, 0.0155, 0.0060),
         (0.88, 0.091, -0.0402, 0.0138, 0.0046),
@@ -32,6 +32,10 @@ SECTIONS = np.array(
 
 OUT, LIFT, DROOP = 0.036, 0.0105, 0.006
 """Where ``tongueOut`` takes the tip: forward, over the lower teeth and then down, metres."""
+
+ROOT = 0.6
+"""Over which share of its length the tongue comes to lie on the jaw: its root stays in the throat,
+which an opening jaw would otherwise turn out of the back of the head."""
 
 GROOVE = 0.0012
 """Depth of the furrow along the middle, metres."""
@@ -57,10 +61,12 @@ class Tongue:
         height = y + thickness * np.sign(top) * np.abs(top) ** 0.8 - groove
         self.rest = frame(np.stack([x, height, np.broadcast_to(z, x.shape)], axis=2))
         self._out = frame.scale * _way_out(share)
+        lying = (share / ROOT).clip(0.0, 1.0)
+        self._on_jaw = (lying * lying * (3.0 - 2.0 * lying))[:, None, None]
 
     def moved(self, outline: Outline, weights: Mapping[str, float]) -> FloatArray:
         """(K, M, 3) displacement, linear in the weights."""
-        moved = jaw_motion(self.rest, self._frame, weights)
+        moved = self._on_jaw * jaw_motion(self.rest, self._frame, weights)
         return moved + weights.get("tongueOut", 0.0) * self._out[:, None]
 
 
