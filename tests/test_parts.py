@@ -9,7 +9,7 @@ import pdeface
 from pdeface.controls import Displacement
 from pdeface.curves import BoundaryCurves
 from pdeface.face import Face
-from pdeface.parts import FaceParts, has_parts, iris_colour
+from pdeface.parts import FaceParts, eye_colours, has_parts
 
 
 @pytest.mark.parametrize("seed", [None, 0, 1])
@@ -64,13 +64,15 @@ def test_faces_without_openings_have_no_parts() -> None:
 
 
 def test_the_iris_has_the_colour_that_the_texture_shows() -> None:
-    from pdeface.anatomy.textures import IRIS_COLOUR
+    from pdeface.anatomy.textures import EYE_WHITE, IRIS_COLOUR
     from pdeface.texture import portrait, uv_texture
 
-    assert iris_colour(pdeface.neutral()) == IRIS_COLOUR
+    assert eye_colours(pdeface.neutral()) == (IRIS_COLOUR, EYE_WHITE)
     image, points = portrait()
-    red, green, blue = iris_colour(pdeface.neutral().with_texture(uv_texture(image, points).image))
+    face = pdeface.neutral().with_texture(uv_texture(image, points).image)
+    (red, green, blue), white = eye_colours(face)
     assert red > green > blue, "the subject of the portrait has brown eyes"
     assert 50 < red < 140
+    assert min(white) >= 150 and max(white) <= 236, "in the light of the photo, within reason"
     blues = np.full((64, 64, 3), (90, 110, 150), np.uint8)
-    assert iris_colour(pdeface.neutral().with_texture(blues)) in (IRIS_COLOUR, (90, 110, 150))
+    assert eye_colours(pdeface.neutral().with_texture(blues))[0] in (IRIS_COLOUR, (90, 110, 150))

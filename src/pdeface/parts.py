@@ -14,18 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.anatomy import OPENINGS, PARTS, Margins, Outline, Part, placed
-from pdeface.anatomy.textures import IRIS_COLOUR
+from pdeface.anatomy.textures import EYE_WHITE, IRIS_COLOUR
 from pdeface.controls import CONTROLS, Displacement, expressed, person
 from pdeface.controls.seams import seam
 from pdeface.face import Face
 from pdeface.template import openings
 
-__all__ = ["FaceParts", "has_parts", "iris_colour"]
+__all__ = ["FaceParts", "eye_colours", "has_parts"]
 
 FloatArray = NDArray[np.float64]
+Colour = tuple[int, int, int]
 
 # Of an eye's width to either side of its middle, of its height off the lids, and by brightness.
 _MIDDLE, _INSET, _IRIS_LIGHT = 0.17, 0.2, (0.3, 0.6)
+_NEAR_CORNERS, _WHITE_LIGHT = 0.40, (0.75, 0.95)
+_WHITES = (176, 160, 150), (236, 230, 224)
 _FEWEST_TEXELS = 40
 
 # Blinks of which the eyeballs keep clear, lest they show through a lid on its way.
@@ -47,30 +50,47 @@ def has_parts(face: Face) -> bool:
     return min(widths) > NARROWEST
 
 
-def iris_colour(face: Face) -> tuple[int, int, int]:
-    """sRGB of the irises that the texture of a face shows, or a grey blue where it has none.
+def eye_colours(face: Face) -> tuple[Colour, Colour]:
+    """sRGB of iris and white that the texture of a face shows; a grey blue eye's without one.
 
     The eyes of a texture are its photo's: between the lids, in the middle, lie pupil, iris, white
-    and highlights. The iris is what is neither among the darkest nor among the brighter half.
+    and highlights. The iris is what is neither among the darkest nor among the brighter half; the
+    white is what is bright beside the middle, in the photo's light.
     """
     if face.texture is None:
-        return IRIS_COLOUR
+        return IRIS_COLOUR, EYE_WHITE
     height, width = face.texture.shape[:2]
     u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
-    found = []
+    middles, sides = [], []
     for opening in openings()[:2]:
         start, end = opening.corners
         upper, lower = (line + (u[:, None] * 0.0) for line in opening.lines(v))
         inset = _INSET * (lower - upper)
         inside = (u[:, None] > upper + inset) & (u[:, None] < lower - inset)
-        inside &= np.abs(v - 0.5 * (start + end)) < _MIDDLE * (end - start)
-        found.append(face.texture[inside])
-    texels = np.concatenate(found)[:, :3].astype(np.float64)
+        away = np.abs(v - 0.5 * (start + end)) / (end - start)
+        middles.append(face.texture[inside & (away < _MIDDLE)])
+        sides.append(face.texture[inside & (away > _MIDDLE) & (away < _NEAR_CORNERS)])
+    iris = _middle_colour(np.concatenate(middles), _IRIS_LIGHT)
+    white = _middle_colour(np.concatenate(sides), _WHITE_LIGHT)
+    # Strongly lit or shaded eyes would look blind or dead in any other light.
+    return iris or IRIS_COLOUR, EYE_WHITE if white is None else _between(white, *_WHITES)
+
+
+def _middle_colour(texels: NDArray[np.uint8], part: tuple[float, float]) -> Colour | None:
+    """Median of the texels whose brightness lies between two quantiles."""
     if len(texels) < _FEWEST_TEXELS:
-        return IRIS_COLOUR
-    light = texels @ (0.2126, 0.7152, 0.0722)
-    low, high = np.quantile(light, _IRIS_LIGHT)
-    colour = np.median(texels[(light >= low) & (light <= high)], axis=0)
+        return None
+    colours = texels[:, :3].astype(np.float64)
+    light = colours @ (0.2126, 0.7152, 0.0722)
+    low, high = np.quantile(light, part)
+    return _rounded(np.median(colours[(light >= low) & (light <= high)], axis=0))
+
+
+def _between(colour: Colour, low: Colour, high: Colour) -> Colour:
+    return _rounded(np.clip(colour, low, high))
+
+
+def _rounded(colour: NDArray[np.float64]) -> Colour:
     red, green, blue = (int(c) for c in np.rint(colour))
     return red, green, blue
 

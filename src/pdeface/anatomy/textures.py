@@ -15,7 +15,7 @@ from pdeface.anatomy.measured import arch
 from pdeface.anatomy.part import part
 from pdeface.errors import InputError
 
-__all__ = ["BROWN", "IRIS_COLOUR", "eye", "mouth", "teeth", "texture", "tongue"]
+__all__ = ["BROWN", "EYE_WHITE", "IRIS_COLOUR", "eye", "mouth", "teeth", "texture", "tongue"]
 
 FloatArray = NDArray[np.float64]
 Colour = tuple[int, int, int]
@@ -25,6 +25,9 @@ BROWN: Colour = (104, 68, 40)
 IRIS_COLOUR: Colour = (96, 112, 112)
 """sRGB of the iris unless another is asked for: a grey blue."""
 
+EYE_WHITE: Colour = (236, 230, 224)
+"""sRGB of the white of the eye unless another is asked for."""
+
 IRIS, PUPIL = np.radians(21.5), np.radians(6.8)
 """Angles from the middle of the pupil to the limbus and to the edge of the pupil."""
 
@@ -33,7 +36,7 @@ TOOTH, GUM = (236, 228, 208), (196, 118, 114)
 TONGUE = (192, 104, 104)
 
 
-def eye(colour: Colour = IRIS_COLOUR, size: int = 512) -> Pixels:
+def eye(colour: Colour = IRIS_COLOUR, size: int = 512, white: Colour = EYE_WHITE) -> Pixels:
     """(size, size, 3) uint8 texture of an eyeball.
 
     A dark pupil; an iris of this colour with radial fibres, lighter round the pupil and dark at
@@ -42,8 +45,9 @@ def eye(colour: Colour = IRIS_COLOUR, size: int = 512) -> Pixels:
     Raises:
         InputError: no colour of three numbers from 0 to 255.
     """
-    if len(colour) != 3 or not all(0 <= c <= 255 for c in colour):
-        raise InputError(f"the colour of an iris is three numbers from 0 to 255, got {colour}")
+    for what, given in (("an iris", colour), ("the white of an eye", white)):
+        if len(given) != 3 or not all(0 <= c <= 255 for c in given):
+            raise InputError(f"the colour of {what} is three numbers from 0 to 255, got {given}")
     u, v = _places(size, size)
     angle = BACK * u**SPACING
     base = np.array(colour, dtype=np.float64)
@@ -53,7 +57,8 @@ def eye(colour: Colour = IRIS_COLOUR, size: int = 512) -> Pixels:
     light = 0.86 + 0.30 * fibres + 0.25 * ring - 0.45 * _step(0.72, 1.05, across)
     iris = base * light[..., None] + ring[..., None] * (26.0, 14.0, -6.0)
     red = _step(np.radians(30.0), np.radians(75.0), angle)[..., None]
-    sclera = (1.0 - red) * (236.0, 230.0, 224.0) + red * (214.0, 176.0, 166.0)
+    light = np.array(white, dtype=np.float64)
+    sclera = (1.0 - red) * light + red * (light * (0.91, 0.77, 0.74))
     blur = np.radians(1.6)
     colours = _mix(iris, sclera, _step(IRIS - blur, IRIS + blur, angle))
     pupil = np.array([12.0, 10.0, 10.0])
@@ -101,14 +106,14 @@ def tongue(size: int = 128) -> Pixels:
 
 
 @lru_cache(maxsize=16)
-def texture(name: str, iris: Colour = IRIS_COLOUR) -> Pixels:
+def texture(name: str, iris: Colour = IRIS_COLOUR, white: Colour = EYE_WHITE) -> Pixels:
     """(H, W, 3) uint8 texture of a part, read-only.
 
     Texel [0, 0] lies at u = 0, v = 0; texture coordinates are (v / 2 pi, u).
 
     Args:
         name: of the part.
-        iris: colour of the irises.
+        iris, white: colours of the eyes.
 
     Raises:
         InputError: no part has that name, or no such colour.
@@ -117,7 +122,7 @@ def texture(name: str, iris: Colour = IRIS_COLOUR) -> Pixels:
     if material == "teeth":
         pixels = teeth(name.removesuffix("_teeth"))
     elif material == "eye":
-        pixels = eye(iris)
+        pixels = eye(iris, white=white)
     elif material == "lids":
         pixels = lids()
     else:

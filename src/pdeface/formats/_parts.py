@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pdeface.anatomy import Outline, Part, textures
 from pdeface.formats._targets import MorphTargets
-from pdeface.parts import FaceParts, has_parts, iris_colour
+from pdeface.parts import FaceParts, eye_colours, has_parts
 
 __all__ = ["PartSample", "sampled_parts"]
 
@@ -86,7 +86,7 @@ def _sampled(
         part.grid.texcoords.astype(np.float32),
         part.grid.triangles,
         differences,
-        textures.texture(name, iris_colour(targets.face)),
+        textures.texture(name, *eye_colours(targets.face)),
     )
 
 

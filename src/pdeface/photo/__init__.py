@@ -20,14 +20,17 @@ from pdeface.photo.landmarker import find_faces
 from pdeface.photo.model import model_file
 from pdeface.photo.points import feature_points
 from pdeface.photo.shape import PhotoShape, fit_shape
+from pdeface.photo.texturing import PhotoView, projected_texture
 
 __all__ = [
     "PhotoFace",
     "PhotoShape",
+    "PhotoView",
     "choose",
     "doubts",
     "feature_points",
     "find_faces",
     "fit_shape",
     "model_file",
+    "projected_texture",
 ]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.controls import CONTROLS
-from pdeface.face import neutral
+from pdeface.face import Face, neutral
 from pdeface.photo.anchors import anchors
 from pdeface.photo.camera import PARAMETERS, PhotoCamera
 from pdeface.photo.found import PhotoFace
@@ -50,6 +50,11 @@ class PhotoShape:
     expression: dict[str, float]
     camera: PhotoCamera
     error: float
+
+    @property
+    def face(self) -> Face:
+        """The person at rest, with the neutral face's curves."""
+        return neutral().with_weights(self.identity)
 
 
 @dataclass(frozen=True, eq=False)

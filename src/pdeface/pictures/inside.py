@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pdeface.anatomy import textures
 from pdeface.controls.neck import PIVOT, rotations
 from pdeface.face import Face
-from pdeface.parts import FaceParts, has_parts, iris_colour
+from pdeface.parts import FaceParts, eye_colours, has_parts
 from pdeface.pictures.camera import Camera
 from pdeface.pictures.light import Rig, light_up
 from pdeface.pictures.solid import Solid
@@ -39,8 +39,8 @@ def inside(
         return []
     parts = FaceParts(face)
     turn = np.eye(3) if head is None else rotations(head)
-    iris = iris_colour(face)
-    return [_solid(parts, name, camera, rig, albedo, turn, iris) for name in parts.parts]
+    eyes = eye_colours(face)
+    return [_solid(parts, name, camera, rig, albedo, turn, eyes) for name in parts.parts]
 
 
 def _solid(
@@ -50,7 +50,7 @@ def _solid(
     rig: Rig,
     albedo: Any,
     turn: NDArray[np.float64],
-    iris: tuple[int, int, int],
+    eyes: tuple[tuple[int, int, int], tuple[int, int, int]],
 ) -> Solid:
     part, curves = parts.parts[name], parts.curves(name)
     vertices = (part.positions(curves) - PIVOT) @ turn.T + PIVOT
@@ -62,5 +62,5 @@ def _solid(
     if albedo is not None:
         return Solid(vertices, part.grid.triangles, colors)
     return Solid(
-        vertices, part.grid.triangles, colors, part.grid.texcoords, textures.texture(name, iris)
+        vertices, part.grid.triangles, colors, part.grid.texcoords, textures.texture(name, *eyes)
     )

@@ -17,13 +17,16 @@ from pdeface.texture.five_steps import uv_texture
 from pdeface.texture.photos import read_photo, write_image
 from pdeface.texture.points import POINT_NAMES, FeaturePoints
 from pdeface.texture.portrait import portrait
+from pdeface.texture.projection import PhotoLayer, project
 from pdeface.texture.warp import warp
 
 __all__ = [
     "POINT_NAMES",
     "FeaturePoints",
+    "PhotoLayer",
     "UVTexture",
     "portrait",
+    "project",
     "read_photo",
     "uv_texture",
     "warp",
