@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import pdeface
 from pdeface.__main__ import main
@@ -41,7 +42,7 @@ def here(photo, model_named, tmp_path: Path, monkeypatch) -> Path:
 def test_points_writes_what_make_takes(here, capfd) -> None:
     assert main(["points", "me.png", "-o", "me.json"]) == 0
     assert main(["make", "me.png", "--points", "me.json", "-o", "by_points.pdeface"]) == 0
-    assert main(["make", "me.png", "-o", "at_once.pdeface"]) == 0
+    assert main(["make", "me.png", "-o", "at_once.pdeface", "--texture", "warp"]) == 0
     out, err = capfd.readouterr()
     assert err == ""
     assert "wrote me.json" in out
@@ -55,7 +56,7 @@ def test_points_writes_what_make_takes(here, capfd) -> None:
 def test_the_texture_is_that_of_the_points(here, photo) -> None:
     write_image(photo, "small.png")
     main(["points", "small.png", "-o", "small.json", "-q"])
-    main(["make", "small.png", "-o", "small.pdeface", "-q"])
+    main(["make", "small.png", "-o", "small.pdeface", "-q", "--texture", "warp"])
     expected = uv_texture(photo, FeaturePoints.load("small.json")).image
     difference = np.abs(pdeface.load("small.pdeface").texture.astype(int) - expected)
     assert difference.mean() < 0.5  # the file's ten digits
@@ -72,6 +73,80 @@ def test_the_shape_is_the_persons_unless_another_is_asked_for(here) -> None:
         else:
             assert len(weights) == 50
             assert (weights["identity01"] == 2.0) == bool(words)
+
+
+def test_the_texture_is_projected_and_the_report_drawn(here, capfd) -> None:
+    words = ["me.png", "-o", "me.pdeface", "--report", "report.png"]
+    assert main(["make", *words]) == 0
+    assert "wrote report.png" in capfd.readouterr().out
+    with Image.open("report.png") as report:
+        assert report.width > 2000 and report.height > 2000
+    shown = pdeface.load("me.pdeface").texture
+    assert main(["make", "me.png", "-o", "warped.pdeface", "--texture", "warp", "-q"]) == 0
+    warped = pdeface.load("warped.pdeface").texture
+    assert shown.shape != warped.shape or np.abs(shown.astype(int) - warped).mean() > 5.0
+
+
+def test_several_photos_are_one_person(here, photo, capfd) -> None:
+    write_image((photo * 0.7).astype(np.uint8), "darker.png")
+    assert main(["make", "me.png", "darker.png", "-o", "two.pdeface", "-q"]) == 0
+    assert main(["make", "me.png", "-o", "one.pdeface", "-q"]) == 0
+    two, one = pdeface.load("two.pdeface"), pdeface.load("one.pdeface")
+    assert two.name == "me"
+    assert abs(two.texture.mean() - one.texture.mean()) < 25.0
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_folder_makes_a_folder_and_one_bad_photo_does_not_stop_it(here, capfd, jobs) -> None:
+    folder = Path("photos")
+    folder.mkdir()
+    for name in ("ann.png", "bob.png"):
+        shutil.copy("me.png", folder / name)
+    (folder / "cut.jpg").write_bytes(b"\xff\xd8\xff no photo")
+    (folder / "notes.txt").write_text("no photo at all")
+    words = ["make", "photos", "-o", "faces", "--formats", "pdeface,obj", "--mesh", "28x41"]
+    assert main([*words, "--jobs", jobs]) == 1
+    out, err = capfd.readouterr()
+    assert "2 made, 0 kept, 1 failed" in out
+    assert err.startswith("warning: cut.jpg: ") and err.count("\n") == 1
+    made = sorted(path.name for path in Path("faces").iterdir())
+    assert [name for name in made if name.endswith((".pdeface", ".obj"))] == [
+        "ann.obj", "ann.pdeface", "bob.obj", "bob.pdeface"
+    ]  # fmt: skip
+    before = Path("faces/ann.obj").stat().st_mtime_ns
+    (folder / "cut.jpg").unlink()
+    Path("faces/bob.obj").unlink()
+    assert main(words) == 0
+    assert "1 made, 1 kept, 0 failed" in capfd.readouterr().out
+    assert Path("faces/ann.obj").stat().st_mtime_ns == before
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["photos", "-o", "a.glb"],
+        ["photos", "me.png", "-o", "faces"],
+        ["photos", "-o", "faces", "--formats", "doc"],
+        ["photos", "-o", "faces", "--report", "r.png"],
+        ["empty", "-o", "faces"],
+        ["me.png", "-o", "a.glb", "--report", "a.pdf"],
+        ["me.png", "-o", "a.glb", "--texture", "warp", "--delight"],
+        ["me.png", "me.png", "-o", "a.glb", "--points", "p.json"],
+        ["me.png", "-o", "a.glb", "--points", "p.json", "--texture", "project"],
+    ],
+    ids=" ".join,
+)
+def test_what_does_not_go_together_is_one_line(tmp_path, monkeypatch, capfd, words) -> None:
+    monkeypatch.chdir(tmp_path)
+    for folder in ("photos", "empty"):
+        Path(folder).mkdir()
+    write_image(np.full((20, 20, 3), 90, np.uint8), "me.png")
+    shutil.copy("me.png", "photos/me.png")
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["make", *words]) == 2
+    err = capfd.readouterr().err
+    assert err.startswith("error: ") and err.count("\n") == 1
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 def test_several_faces_are_told_and_another_can_be_had(here, photo, capfd) -> None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Literal
 
 import typer
 
-from pdeface.cli.landmarks import face_in
-from pdeface.cli.moves import chosen_expressions, parse_weights, speaking, with_weights
+from pdeface.cli.folder import make_folder
+from pdeface.cli.making import made_from, write_all
+from pdeface.cli.moves import chosen_expressions, parse_weights, speaking
 from pdeface.cli.options import (
     DEFAULT_MESH,
     ClampOption,
@@ -25,15 +26,8 @@ from pdeface.cli.options import (
     parse_mesh,
 )
 from pdeface.cli.report import Report
+from pdeface.cli.wishes import Wishes
 from pdeface.errors import InputError
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from pdeface import Face
-    from pdeface.photo import PhotoFace
-    from pdeface.texture import FeaturePoints
 
 __all__ = ["make"]
 
@@ -46,18 +40,35 @@ def make(
             "--out",
             metavar="OUT",
             help="File to write; may be repeated. The suffix picks the format: .pdeface, .glb, "
-            ".gltf, .vrm, .obj, .ply, .stl, or .png for a sheet of pictures from three sides.",
+            ".gltf, .vrm, .obj, .ply, .stl, or .png for a sheet of pictures from three sides. "
+            "For a folder of photos, a folder.",
         ),
     ],
-    photo: Annotated[
-        Path | None,
-        typer.Argument(metavar="PHOTO", help="A portrait from the front. Without it, the "
-                       "bundled one."),
+    photos: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="[PHOTO]...", help="A portrait, several photos of one person, or "
+                       "a folder of portraits. Without it, the bundled one."),
     ] = None,
     points: Annotated[
         Path | None,
         typer.Option("--points", metavar="FILE", help="JSON file of the 25 feature points in "
-                     "PHOTO (docs/points.md). Without it they are found by MediaPipe."),
+                     "PHOTO (docs/points.md), for the paper's warp. Without it the face is found "
+                     "by MediaPipe."),
+    ] = None,
+    texture: Annotated[
+        Literal["project", "warp"] | None,
+        typer.Option("--texture", help="Read the texture through the fitted face, or warp the "
+                     "photo by the paper's five steps; by default project, with --points warp."),
+    ] = None,
+    delight: Annotated[
+        bool,
+        typer.Option("--delight", help="Divide the light on the face out of its texture, as far "
+                     "as it can be told."),
+    ] = False,
+    picture: Annotated[
+        Path | None,
+        typer.Option("--report", metavar="FILE", help="Picture (.png, .jpg) of what was found in "
+                     "the photo and what was made of it."),
     ] = None,
     face_number: FaceNumberOption = 1,
     model: ModelOption = None,
@@ -78,7 +89,7 @@ def make(
     person: Annotated[
         int | None,
         typer.Option("--random", metavar="SEED", min=0, help="The shape of a random person "
-                     "instead of the neutral face; the same number gives the same person."),
+                     "instead of the one in the photo; the same number gives the same person."),
     ] = None,
     set_: SetOption = None,
     clamp: ClampOption = False,
@@ -87,103 +98,83 @@ def make(
     mesh: MeshOption = DEFAULT_MESH,
     join: JoinOption = "smooth",
     openings: OpeningsOption = "cut",
+    formats: Annotated[
+        str,
+        typer.Option("--formats", metavar="NAME,...", help="For a folder of photos: the files to "
+                     "write for each, by their suffixes."),
+    ] = "glb",
+    jobs: Annotated[
+        int,
+        typer.Option("--jobs", metavar="N", min=1, help="For a folder of photos: how many to work "
+                     "on at once."),
+    ] = 1,
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
     """Make a textured face from a portrait.
 
-    The photo is warped onto the uv mesh so that its 25 feature points fall where the face has
-    them. Points that are not given are found on this machine, and the person's shape with them;
-    the photo is sent nowhere. With --points, and without PHOTO, the face has the shape of the
-    neutral one; --random and --set change it.
+    The face is found on this machine, and with it the person's shape, the camera and the expression
+    in the photo; the photo is sent nowhere. Each texel is then read from the photo where the fitted
+    face shows it, and what no photo shows is completed. The face that is made has no expression.
+    Several photos of one person show more of it.
+
+    A folder of photos makes a folder of faces. One bad photo does not stop the rest (the exit
+    status is then 1), and faces that are newer than their photos are not made again.
 
     \b
     Examples:
       pdeface make -o face.glb
       pdeface make -o face.pdeface -o face.glb -o face.png
-      pdeface make me.jpg -o me.glb
+      pdeface make me.jpg -o me.glb --report me-report.png
+      pdeface make front.jpg left.jpg right.jpg -o me.glb
       pdeface make me.jpg --points me.json -o me.glb
+      pdeface make photos/ -o faces/ --formats glb,pdeface --jobs 2
       pdeface make --level 28x46 --mesh 28x41 -o paper.obj
       pdeface make --random 7 --set jawOpen=0.3 -o someone.png
     """
-    size, weights = parse_mesh(mesh), parse_weights(set_)
-    if photo is None and points is not None:
-        raise InputError("--points also needs PHOTO; give both, or none for the bundled one")
-    import pdeface
+    wishes = Wishes(
+        points=points, face_number=face_number, model=model, neutral_shape=neutral_shape,
+        texture=texture, delight=delight, level=level, random=person,
+        weights=parse_weights(set_), clamp=clamp, mesh=parse_mesh(mesh), join=join,
+        openings=openings, visemes=visemes, expressions=expressions,
+    )  # fmt: skip
+    sources = list(photos or ())
+    _check(sources, wishes, picture)
+    start = wishes.start()
+    if any(source.is_dir() for source in sources):
+        make_folder(sources, out, formats, jobs, wishes, picture, Report(quiet))
+        return
     from pdeface.formats import SUFFIXES
     from pdeface.pictures.image_file import FORMATS as PICTURES
 
-    shape = with_weights(_shape(person, level), weights, clamp)
-    moving = chosen_expressions(shape, expressions, out)
-    talking = speaking(visemes, shape, out)
-    check_outputs(out, [photo, points, model], [*SUFFIXES, *PICTURES])
+    # All that can be wrong is found before any work is done.
+    chosen_expressions(start, expressions, out)
+    speaking(visemes, start, out)
+    inputs = [*sources, points, model]
+    check_outputs(out, inputs, [*SUFFIXES, *PICTURES])
+    check_outputs([picture] if picture else [], [*inputs, *out], [*PICTURES])
     report = Report(quiet)
-    image, places, found = _photo(photo, points, face_number, model, report)
-    if found is not None and person is None and not neutral_shape:
-        with report.step("fitting the person's shape"):
-            shape = _fitted(shape, found)
-    with report.step("warping the photo onto the uv mesh"):
-        face = _textured(shape, photo, image, places)
-    for path in out:
-        with report.step(f"writing {path}") as progress:
-            if path.suffix.lower() in PICTURES:
-                from pdeface.pictures import demo_sheet
+    face, views = made_from(sources, wishes, start, report)
+    write_all(face, out, wishes, report)
+    if picture is not None:
+        with report.step("drawing the report"):
+            from pdeface.photo import photo_report
+            from pdeface.pictures.image_file import write_image
 
-                demo_sheet(face, path, progress=progress)
-            else:
-                pdeface.export(
-                    face,
-                    path,
-                    mesh=size,
-                    join=join,
-                    expressions=moving[path],
-                    openings=openings,
-                    visemes=path in talking,
-                )
-        report.wrote(path)
+            write_image(picture, photo_report(face, views))
+        report.wrote(picture)
 
 
-def _shape(person: int | None, level: str | None) -> Face:
-    import pdeface
-
-    levels = {"level": level} if level else {}
-    if person is None:
-        return pdeface.neutral(**levels).with_name("portrait")
-    return pdeface.random(person, **levels)
-
-
-def _photo(
-    photo: Path | None, points: Path | None, number: int, model: Path | None, report: Report
-) -> tuple[NDArray[np.uint8], FeaturePoints, PhotoFace | None]:
-    """The photo, its feature points (bundled, given or found), and the face if it was found."""
-    from pdeface.texture import FeaturePoints, portrait, read_photo
-
-    if photo is None:
-        return *portrait(), None
-    if points is None:
-        image = read_photo(photo)
-        from pdeface.photo import feature_points
-
-        found = face_in(photo, image, number, model, report)
-        return image, feature_points(found), found
-    # The points first: they are read in no time, and a mistake in them is likelier.
-    places = FeaturePoints.load(points)
-    return read_photo(photo), places, None
-
-
-def _fitted(face: Face, found: PhotoFace) -> Face:
-    """The face with the identity of the person found; weights that were set stay."""
-    from pdeface.photo import fit_shape
-
-    return face.with_weights({**fit_shape(found).identity, **face.weights})
-
-
-def _textured(
-    face: Face, photo: Path | None, image: NDArray[np.uint8], places: FeaturePoints
-) -> Face:
-    from pdeface.texture import uv_texture
-
-    if photo is None:
-        face = face.with_notes({"photo": "Eileen Collins; NASA, public domain"})
-    else:
-        face = face.with_name(photo.stem)
-    return face.with_texture(uv_texture(image, places).image)
+def _check(sources: list[Path], wishes: Wishes, picture: Path | None) -> None:
+    """Refuse options that do not go together."""
+    if wishes.points is not None and len(sources) != 1:
+        raise InputError(
+            "--points also needs PHOTO, one, "
+            f"got {len(sources)}; give both, or none for the bundled one"
+        )
+    if wishes.points is not None and (wishes.texture == "project" or wishes.delight or picture):
+        raise InputError(
+            "--points is for the paper's warp, which --texture project, --delight and --report "
+            "have no part in; leave one of them out"
+        )
+    if wishes.texture == "warp" and wishes.delight:
+        raise InputError("--delight is for --texture project; leave one of them out")

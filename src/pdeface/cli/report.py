@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TypeVar
 
 import typer
 
 __all__ = ["Report"]
+
+T = TypeVar("T")
 
 
 class Report:
@@ -40,6 +43,42 @@ class Report:
             return
         with console.status(Text(what)) as status:
             yield lambda text: status.update(Text(text))
+
+    def counted(self, items: Iterable[T], total: int, what: str) -> Iterator[T]:
+        """The items as they come, with a bar of how many have, if a person may see it."""
+        if self._quiet:
+            yield from items
+            return
+        from rich.console import Console
+        from rich.progress import Progress
+
+        console = Console(stderr=True)
+        if not console.is_terminal:
+            yield from items
+            return
+        with Progress(console=console, transient=True) as progress:
+            task = progress.add_task(what, total=total)
+            for item in items:
+                progress.advance(task)
+                yield item
+
+    def table(self, titles: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+        """Print a table on stdout."""
+        if self._quiet:
+            return
+        from rich.console import Console
+        from rich.table import Table
+        from rich.text import Text
+
+        table = Table(*titles)
+        for row in rows:
+            table.add_row(*(Text(cell) for cell in row))
+        Console().print(table)
+
+    def say(self, text: str) -> None:
+        """Print a line on stdout."""
+        if not self._quiet:
+            typer.echo(text)
 
     def note(self, text: str) -> None:
         """Tell, on stderr, what the user may want to know or change."""

@@ -1,12 +1,11 @@
-"""Faces from photographs: landmarks, the paper's feature points and the person's shape from them.
+"""Faces from photographs: landmarks, the person's shape, and a texture.
 
-    from pdeface.photo import feature_points, find_faces, fit_shape
-    from pdeface.texture import read_photo, uv_texture
+    from pdeface.photo import find_faces, photo_views, textured
+    from pdeface.texture import read_photo
 
     photo = read_photo("me.jpg")
-    face = find_faces(photo)[0]
-    texture = uv_texture(photo, feature_points(face))
-    person = pdeface.neutral().with_weights(fit_shape(face).identity).with_texture(texture.image)
+    views = photo_views([photo], [find_faces(photo)[0]])
+    person = textured(views[0].shape.face, views)
 
 The landmarks are found by MediaPipe (extra ``photo``) on this machine; nothing is sent anywhere.
 Its model is fetched once, by :func:`model_file`, unless it is given.
@@ -14,11 +13,14 @@ Its model is fetched once, by :func:`model_file`, unless it is given.
 
 from __future__ import annotations
 
+from pdeface.photo.bundled import portrait_face
 from pdeface.photo.doubts import doubts
 from pdeface.photo.found import PhotoFace, choose
 from pdeface.photo.landmarker import find_faces
 from pdeface.photo.model import model_file
+from pdeface.photo.person import TextureWay, photo_views, textured
 from pdeface.photo.points import feature_points
+from pdeface.photo.reporting import photo_report
 from pdeface.photo.shape import PhotoShape, fit_shape
 from pdeface.photo.texturing import PhotoView, projected_texture
 
@@ -26,11 +28,16 @@ __all__ = [
     "PhotoFace",
     "PhotoShape",
     "PhotoView",
+    "TextureWay",
     "choose",
     "doubts",
     "feature_points",
     "find_faces",
     "fit_shape",
     "model_file",
+    "photo_report",
+    "photo_views",
+    "portrait_face",
     "projected_texture",
+    "textured",
 ]
