@@ -14,8 +14,6 @@ Pixels = NDArray[np.uint8]
 
 _SMALLEST = 8
 _MOST_ENLARGED = 4
-_BAND = 1 << 19
-"""Texels read at once: what a processor's cache holds beats what fits the memory."""
 
 
 class PhotoReader:
@@ -55,11 +53,7 @@ class PhotoReader:
     def colours(self, places: FloatArray) -> FloatArray:
         """(..., 3) float32, 0 to 255, at (..., 2) places in pixels of the photo; bilinear."""
         flat = np.ascontiguousarray(places, dtype=np.float32).reshape(-1, 2)
-        result = np.empty((len(flat), 3), np.float32)
-        for start in range(0, len(flat), _BAND):
-            part = slice(start, start + _BAND)
-            result[part] = self._read(flat[part])[:, :3]
-        return result.reshape(*places.shape[:-1], 3)
+        return self._read(flat)[:, :3].reshape(*places.shape[:-1], 3)
 
     def seen(self, places: FloatArray) -> FloatArray:
         """(...,) 1 where the photo shows something, falling to 0 at its border and beyond."""
@@ -71,11 +65,18 @@ class PhotoReader:
     def _read(self, places: FloatArray) -> FloatArray:
         height, width = self._pixels.shape[:2]
         at = (places - self._corner) * self._scale - np.float32(0.5)
-        at = np.clip(at, 0.0, np.array([width - 1.001, height - 1.001], np.float32))
+        np.clip(at, 0.0, np.array([width - 1.001, height - 1.001], np.float32), out=at)
         first = at.astype(np.int32)
         x, y = (at - first).T[:, :, None]
         flat = self._pixels.reshape(-1, 4)
         index = first[:, 1] * width + first[:, 0]
-        upper = flat[index] * (1.0 - x) + flat[index + 1] * x
-        lower = flat[index + width] * (1.0 - x) + flat[index + width + 1] * x
-        return np.asarray(upper * (1.0 - y) + lower * y)
+        upper = _between(flat[index], flat[index + 1], x)
+        return _between(upper, _between(flat[index + width], flat[index + width + 1], x), y)
+
+
+def _between(one: NDArray[Any], other: NDArray[Any], share: FloatArray) -> FloatArray:
+    result = other.astype(np.float32)
+    result -= one
+    result *= share
+    result += one
+    return result

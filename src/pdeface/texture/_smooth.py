@@ -41,15 +41,25 @@ def _running_mean(image: FloatArray, width: int) -> FloatArray:
     return np.asarray((sums[width:] - sums[:-width]) / width, dtype=np.float32)
 
 
-def enlarge(image: FloatArray, shape: tuple[int, int]) -> FloatArray:
-    """(H, W, ...) the image at another size, bilinear between the middles of its pixels."""
+def enlarge(image: FloatArray, shape: tuple[int, int], rows: slice | None = None) -> FloatArray:
+    """(H, W, ...) the image at another size, bilinear between the middles of its pixels.
+
+    Args:
+        image: (h, w, ...).
+        shape: (H, W).
+        rows: which rows of the result to make; all by default.
+    """
+    wanted = np.arange(shape[0])[rows or slice(None)], np.arange(shape[1])
     result = image
-    for axis, length in enumerate(shape):
+    for axis, (length, at) in enumerate(zip(shape, wanted, strict=True)):
         moved = np.moveaxis(result, axis, 0)
         count = len(moved)
-        place = np.clip((np.arange(length) + 0.5) * count / length - 0.5, 0.0, count - 1.0)
+        place = np.clip((at + 0.5) * (count / length) - 0.5, 0.0, count - 1.0)
         first = np.minimum(place.astype(np.intp), max(count - 2, 0))
         share = (place - first).astype(np.float32).reshape(-1, *[1] * (moved.ndim - 1))
-        nearer = moved[np.minimum(first + 1, count - 1)]
-        result = np.moveaxis(moved[first] * (1.0 - share) + nearer * share, 0, axis)
+        here, next_ = moved[first], moved[np.minimum(first + 1, count - 1)]
+        next_ -= here
+        next_ *= share
+        next_ += here
+        result = np.moveaxis(next_, 0, axis)
     return np.asarray(result)

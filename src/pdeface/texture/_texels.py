@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["at_texels"]
+__all__ = ["Texels", "at_texels"]
 
 FloatArray = NDArray[np.floating[Any]]
 
 
-def at_texels(values: FloatArray, nodes: NDArray[np.float64], shape: tuple[int, int]) -> FloatArray:
-    """(H, W, k) float32 values at the middles of texels, linear between the nodes.
+class Texels:
+    """Values at the middles of texels, linear between the nodes.
 
     Along a column the nodes lie where the cut put them, two of them in one place where lips meet:
     each side of an opening keeps to its own.
@@ -24,15 +24,33 @@ def at_texels(values: FloatArray, nodes: NDArray[np.float64], shape: tuple[int, 
             a column.
         shape: (H, W) of the texture.
     """
-    height, width = shape
-    u = (np.arange(height) + 0.5) / height
-    v = (np.arange(width) + 0.5) * (np.pi / width)
-    columns, count = values.shape[1:]
-    lines = np.empty((height, columns, count), np.float32)
-    for column in range(columns):
-        for k in range(count):
-            lines[:, column, k] = np.interp(u, nodes[:, column, 0], values[:, column, k])
-    place = np.interp(v, nodes[0, :, 1], np.arange(columns))
-    first = np.minimum(place.astype(np.intp), columns - 2)
-    share = (place - first).astype(np.float32)[:, None]
-    return np.asarray(lines[:, first] * (1.0 - share) + lines[:, first + 1] * share)
+
+    def __init__(
+        self, values: FloatArray, nodes: NDArray[np.float64], shape: tuple[int, int]
+    ) -> None:
+        height, width = shape
+        u = (np.arange(height) + 0.5) / height
+        columns, count = values.shape[1:]
+        self._lines = np.empty((height, columns, count), np.float32)
+        for column in range(columns):
+            for k in range(count):
+                line = np.interp(u, nodes[:, column, 0], values[:, column, k])
+                self._lines[:, column, k] = line
+        v = (np.arange(width) + 0.5) * (np.pi / width)
+        place = np.interp(v, nodes[0, :, 1], np.arange(columns))
+        self._first = np.minimum(place.astype(np.intp), columns - 2)
+        self._share = (place - self._first).astype(np.float32)[:, None]
+
+    def rows(self, rows: slice) -> FloatArray:
+        """(h, W, k) float32 values in some rows of the texture."""
+        lines = self._lines[rows]
+        here, next_ = lines[:, self._first], lines[:, self._first + 1]
+        next_ -= here
+        next_ *= self._share
+        next_ += here
+        return next_
+
+
+def at_texels(values: FloatArray, nodes: NDArray[np.float64], shape: tuple[int, int]) -> FloatArray:
+    """(H, W, k) values at all texels, as :class:`Texels` gives them."""
+    return Texels(values, nodes, shape).rows(slice(None))

@@ -8,7 +8,9 @@ light) is worked out on a coarse texture; the photos themselves are read once, a
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,7 +22,7 @@ from pdeface.texture._reading import PhotoReader
 from pdeface.texture._shading import shading
 from pdeface.texture._skin import Kinds, kinds
 from pdeface.texture._smooth import blur, enlarge, step
-from pdeface.texture._texels import at_texels
+from pdeface.texture._texels import Texels, at_texels
 
 __all__ = ["PhotoLayer", "project"]
 
@@ -29,8 +31,12 @@ Pixels = NDArray[np.uint8]
 
 _COARSE = 384
 _SMALLEST, _LARGEST, _STEP = 512, 4096, 16
-_FINEST = 0.9
-"""Part of the face's texels that are not read more coarsely than the photo is."""
+_BAND = 64
+"""Rows worked on at once: what a processor's cache holds beats what fits the memory."""
+
+_LEAST_SHARE = 1e-3
+_FINEST = 0.75
+"""Part of the face that is not read more coarsely than the photo is: lids alone are closer."""
 
 _SHARPNESS = 4
 """How much more the better of two photos counts: a power of their trust."""
@@ -80,21 +86,45 @@ def project(
     read = [_Reading(layer, nodes, shape) for layer in layers]
     seen = _matched([r.coarse(coarse, delight) for r in read])
     seen += [_mirrored(view, number) for number, view in enumerate(seen)]
-    weights = _shares(seen)
-    fill = _fill(seen, weights)
-    texture = np.zeros((*shape, 3), np.float32)
-    total = np.zeros(shape, np.float32)
-    for number, layer in enumerate(read):
-        own = [(w, s) for w, s in zip(weights, seen, strict=True) if s.layer == number]
-        colours = layer.colours(shape)
-        for weight, view in own:
-            image = colours[:, ::-1] if view.flipped else colours
-            share = enlarge(weight, shape)
-            texture += share[..., None] * image * np.exp(enlarge(view.gain, shape))
-            total += share
-    texture += np.clip(1.0 - total, 0.0, 1.0)[..., None] * enlarge(fill, shape)
-    result = np.clip(np.rint(texture), 0, 255).astype(np.uint8)
+    shares = _shares(seen)
+    fill = _fill(seen, shares)
+    result = np.empty((*shape, 3), np.uint8)
+
+    def make(rows: slice) -> None:
+        result[rows] = _mixed(read, seen, shares, fill, shape, rows)
+
+    bands = [slice(top, min(top + _BAND, shape[0])) for top in range(0, shape[0], _BAND)]
+    with ThreadPoolExecutor(min(4, os.cpu_count() or 1)) as pool:  # numpy lets threads run
+        list(pool.map(make, bands))
     return clean_margins(result) if margins else result
+
+
+def _mixed(
+    read: list[_Reading],
+    seen: list[_View],
+    shares: list[FloatArray],
+    fill: FloatArray,
+    shape: tuple[int, int],
+    rows: slice,
+) -> Pixels:
+    """Some rows of the texture: every view in its share, and the fill in what is left."""
+    left = np.ones((rows.stop - rows.start, shape[1]), np.float32)
+    texture = np.zeros((*left.shape, 3), np.float32)
+    for number, layer in enumerate(read):
+        colours = None
+        for view, share in zip(seen, shares, strict=True):
+            part = enlarge(share, shape, rows) if view.layer == number else np.zeros(1)
+            if float(part.max()) < _LEAST_SHARE:
+                continue
+            colours = layer.colours(rows) if colours is None else colours
+            image = colours[:, ::-1] if view.flipped else colours
+            weight = part[..., None]
+            if view.gain.any():
+                weight = weight * np.exp(enlarge(view.gain, shape, rows))
+            texture += weight * image
+            left -= part
+    texture += left.clip(0.0)[..., None] * enlarge(fill, shape, rows)
+    return np.clip(np.rint(texture), 0, 255).astype(np.uint8)
 
 
 class _View(NamedTuple):
@@ -124,9 +154,10 @@ class _Reading:
         self._fine = PhotoReader(layer.photo, *box, closest)
         ratio = shape[0] / _coarse_shape(shape)[0]
         self._coarse = PhotoReader(layer.photo, *box, closest * ratio)
+        self._places = Texels(layer.places, nodes, shape)
 
-    def colours(self, shape: tuple[int, int]) -> FloatArray:
-        return self._fine.colours(at_texels(self._layer.places, self._nodes, shape))
+    def colours(self, rows: slice) -> FloatArray:
+        return self._fine.colours(self._places.rows(rows))
 
     def coarse(self, shape: tuple[int, int], delight: bool) -> _View:
         layer = self._layer
