@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pdeface import images, template
 from pdeface.archive import FaceRecord, pack, unpack
+from pdeface.compact import MAGIC, Compact, pack_compact, unpack_compact
 from pdeface.controls import (
     CONTROLS,
     Control,
@@ -256,18 +257,43 @@ class Face:
             return kept
         return (images.encode_compact if compact else images.encode_png)(self.texture)
 
-    def save(self, path: PathLike) -> None:
+    def save(self, path: PathLike, *, compact: float | None = None) -> None:
         """Write a ``.pdeface`` file (docs/file-format.md), all of it or nothing.
 
+        Args:
+            path: ends in ``.pdeface``.
+            compact: None for a file that holds the face without loss; or the root mean square
+                error of the curves' points that is allowed, metres, for one of a few hundred
+                bytes (:meth:`compact`).
+
         Raises:
-            InputError: another suffix, or a place that cannot be written.
+            InputError: another suffix, a place that cannot be written, or curves that no compact
+                file can hold.
         """
         if Path(path).suffix.lower() != SUFFIX:
             raise InputError(
                 f"a face is saved as {SUFFIX}, got {Path(path).name!r}; "
                 "use pdeface.export for other formats"
             )
-        record = FaceRecord(
+        atomic_write(path, pack(self._record()) if compact is None else self.compact(compact).data)
+
+    def compact(self, error: float) -> Compact:
+        """The face in few bytes: its curves, predicted from the neutral face, to within an error.
+
+        Args:
+            error: root mean square distance of the curves' points that is allowed, metres.
+
+        Raises:
+            InputError: curves that are not closed by reflection, or an error that is no length.
+
+        Example:
+            >>> random(3).compact(1e-4).shape_bytes < 200
+            True
+        """
+        return pack_compact(self._record(), error)
+
+    def _record(self) -> FaceRecord:
+        return FaceRecord(
             self.curves,
             self.a,
             self.modes,
@@ -276,7 +302,6 @@ class Face:
             self.texture_file(),
             self.weights,
         )
-        atomic_write(path, pack(record))
 
     def _changed(self, **changes: Any) -> Face:
         changed = replace(self, **changes)
@@ -346,7 +371,7 @@ def load(path: PathLike) -> Face:
     """
     data = _read(path)
     try:
-        record = unpack(data)
+        record = (unpack_compact if data.startswith(MAGIC) else unpack)(data)
         texts = record.name, record.notes, record.weights
         face = Face(record.curves, None, record.a, record.modes, *texts)
         return face if record.texture is None else face.with_texture(record.texture)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -23,6 +23,10 @@ from pdeface.cli.options import (
     parse_mesh,
 )
 from pdeface.cli.report import Report
+from pdeface.errors import InputError
+
+if TYPE_CHECKING:
+    from pdeface import Face
 
 __all__ = ["export"]
 
@@ -41,6 +45,12 @@ def export(
         bool | None,
         typer.Option("--quads/--triangles", help="Quads (.obj, .ply) or triangles; by default "
                      "quads in .obj, triangles elsewhere."),
+    ] = None,
+    compact: Annotated[
+        float | None,
+        typer.Option("--compact", metavar="MM", help="Write .pdeface files of a few hundred bytes "
+                     "and the texture, whose curves are off by so many millimetres, root mean "
+                     "square; 0.1 is less than a scanner sees."),
     ] = None,
     set_: SetOption = None,
     clamp: ClampOption = False,
@@ -66,6 +76,7 @@ def export(
       pdeface export face.pdeface -o still.glb --expressions none
       pdeface export face.pdeface -o avatar.vrm
       pdeface export face.pdeface -o talks.glb --visemes
+      pdeface export face.pdeface -o small.pdeface --compact 0.1
     """
     size, weights = parse_mesh(mesh), parse_weights(set_)
     report = Report(quiet)
@@ -76,7 +87,15 @@ def export(
     moving = chosen_expressions(value, expressions, out)
     talking = speaking(visemes, value, out)
     check_outputs(out, [face], SUFFIXES)
+    small = [path for path in out if path.suffix.lower() == ".pdeface"]
+    if compact is not None and not small:
+        raise InputError(
+            "--compact needs an output that ends in .pdeface; add one, or leave it out"
+        )
     for path in out:
+        if compact is not None and path in small:
+            _write_compact(value, path, compact, report)
+            continue
         with report.step(f"writing {path}"):
             pdeface.export(
                 value,
@@ -89,3 +108,16 @@ def export(
                 visemes=path in talking,
             )
         report.wrote(path)
+
+
+def _write_compact(face: Face, path: Path, millimetres: float, report: Report) -> None:
+    from pdeface.files import atomic_write
+
+    with report.step(f"writing {path}"):
+        made = face.compact(1e-3 * millimetres)
+        atomic_write(path, made.data)
+    report.wrote(path)
+    report.say(
+        f"shape: {made.shape_bytes} bytes, off by {1e3 * made.rms:.3f} mm (root mean square), "
+        f"at most {1e3 * made.largest:.2f} mm"
+    )
