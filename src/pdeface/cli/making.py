@@ -58,7 +58,21 @@ def _views(photos: Sequence[Path], wishes: Wishes, report: Report) -> tuple[Phot
     else:
         images, found = [portrait()[0]], [portrait_face()]
     with report.step("fitting the person's shape"):
-        return photo_views(images, found)
+        views = photo_views(images, found)
+    if photos:
+        _warn_of_covers(views, report)
+    return views
+
+
+def _warn_of_covers(views: tuple[PhotoView, ...], report: Report) -> None:
+    from pdeface.photo import COVERED, covered
+
+    for view in views:
+        if (share := covered(view)) > COVERED:
+            report.warn(
+                f"about {100.0 * share:.0f} per cent of the face is not of its skin's colour; "
+                "glasses, hair or a hard shadow over it will be part of the texture"
+            )
 
 
 def _warped(photo: Path, points: Path, start: Face, report: Report) -> Face:

@@ -14,6 +14,7 @@ Its model is fetched once, by :func:`model_file`, unless it is given.
 from __future__ import annotations
 
 from pdeface.photo.bundled import portrait_face
+from pdeface.photo.covering import COVERED, covered
 from pdeface.photo.doubts import doubts
 from pdeface.photo.found import PhotoFace, choose
 from pdeface.photo.landmarker import find_faces
@@ -25,11 +26,13 @@ from pdeface.photo.shape import PhotoShape, fit_shape
 from pdeface.photo.texturing import PhotoView, projected_texture
 
 __all__ = [
+    "COVERED",
     "PhotoFace",
     "PhotoShape",
     "PhotoView",
     "TextureWay",
     "choose",
+    "covered",
     "doubts",
     "feature_points",
     "find_faces",

@@ -9,6 +9,7 @@ to the lines along which a mesh is cut, wherever the calibration has them.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -81,6 +82,7 @@ class Seen(NamedTuple):
     error: float
 
 
+@lru_cache(maxsize=8)
 def seen(found: PhotoFace, shape: PhotoShape) -> Seen:
     """Where the nodes of the uv mesh are in the photo in which a face was found and fitted."""
     face = shape.face.with_weights(shape.expression)

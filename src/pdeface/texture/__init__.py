@@ -17,7 +17,7 @@ from pdeface.texture.five_steps import uv_texture
 from pdeface.texture.photos import read_photo, write_image
 from pdeface.texture.points import POINT_NAMES, FeaturePoints
 from pdeface.texture.portrait import portrait
-from pdeface.texture.projection import PhotoLayer, project
+from pdeface.texture.projection import PhotoLayer, project, shown
 from pdeface.texture.warp import warp
 
 __all__ = [
@@ -28,6 +28,7 @@ __all__ = [
     "portrait",
     "project",
     "read_photo",
+    "shown",
     "uv_texture",
     "warp",
     "write_image",

@@ -65,7 +65,7 @@ def kinds(colours: FloatArray, known: FloatArray) -> Kinds:
     outside = np.clip(step(0.75, 0.95, aside) + step(0.86, 0.89, u), 0.0, 1.0) * (1.0 - zone)
     face = 1.0 - outside * (1.0 - step(0.6, 0.95, blur(skin, fine)))
     # Where a face ends photos show ears and what is behind the head, however well they fit.
-    face = face * step(1.45, 1.2, aside) * step(0.905, 0.86, u)
+    face = face * step(1.45, 1.2, aside) * step(0.89, 0.83, u)
     return Kinds(skin, hair, np.asarray(face))
 
 
@@ -91,13 +91,16 @@ def _likeness(colours: FloatArray, sample: NDArray[np.bool_]) -> FloatArray:
         return np.ones(sample.shape, np.float32)
     middle = np.median(chosen, axis=0)
     apart = chosen - middle
-    for _ in range(4):  # without moles, highlights and stubble
-        inverse = np.linalg.inv(_covariance(apart))
+    # Without moles, highlights, stubble and glasses: first by the medians of their distances.
+    spread = np.diag(np.square(1.48 * np.median(np.abs(apart), axis=0)) + np.square(_LEAST))
+    for _ in range(4):
+        inverse = np.linalg.inv(spread)
         near = np.einsum("ni,ij,nj->n", apart, inverse, apart) < 9.0
         if near.sum() < _FEWEST:
             break
         apart = apart[near]
-    inverse = np.linalg.inv(_covariance(apart)).astype(np.float32)
+        spread = _covariance(apart)
+    inverse = np.linalg.inv(spread).astype(np.float32)
     off = logs - middle.astype(np.float32)
     distance = np.sqrt(np.einsum("hwi,ij,hwj->hw", off, inverse, off).clip(0.0))
     return step(_FAR, _NEAR, distance)

@@ -24,7 +24,7 @@ from pdeface.texture._skin import Kinds, kinds
 from pdeface.texture._smooth import blur, enlarge, step
 from pdeface.texture._texels import Texels, at_texels
 
-__all__ = ["PhotoLayer", "project"]
+__all__ = ["PhotoLayer", "project", "shown"]
 
 FloatArray = NDArray[np.floating[Any]]
 Pixels = NDArray[np.uint8]
@@ -125,6 +125,28 @@ def _mixed(
             left -= part
     texture += left.clip(0.0)[..., None] * enlarge(fill, shape, rows)
     return np.clip(np.rint(texture), 0, 255).astype(np.uint8)
+
+
+def shown(
+    photo: Pixels,
+    places: FloatArray,
+    trust: FloatArray,
+    nodes: NDArray[np.float64],
+    size: tuple[int, int],
+) -> tuple[FloatArray, FloatArray]:
+    """How well a photo shows each texel of a coarse texture, and how like skin it is there.
+
+    Args:
+        photo, places, trust: as in :class:`PhotoLayer`.
+        nodes: (R, C, 2) u and v of the nodes.
+        size: (height, width).
+
+    Returns:
+        (H, W) each, 0 to 1.
+    """
+    layer = PhotoLayer(photo, places, trust, np.zeros((*trust.shape, 3)))
+    view = _Reading(layer, nodes, size).coarse(_coarse_shape(size), delight=False)
+    return enlarge(view.known, size), enlarge(view.kinds.skin, size)
 
 
 class _View(NamedTuple):
