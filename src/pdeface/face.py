@@ -143,23 +143,23 @@ class Face:
         """The PDE surface through the moved curves; u in [0, 1], v in radians, period 2 pi.
 
         Under the smooth join the face is C2 everywhere but between lids and lips, where
-        expressions part it.
+        expressions part it. What closes the lids to the last tenth of a millimetre is added to
+        a mesh that is cut (:mod:`pdeface.margins`), and not to this surface.
         """
-        points, parting = self._layers(join)
+        points, parting, _ = self._layers(join)
         surface = PDESurface(points, a=self.a, modes=self.modes, join=join)
         if parting is None:
             return surface
         slit = slits(self.curves.shape[0])
         return surface + PDESurface(parting, a=self.a, modes=self.modes, continuity=slit)
 
-    def _layers(self, join: Join) -> tuple[FloatArray, FloatArray | None]:
-        """Data points, and the displacement that parts the surface, if any does."""
-        if not self.weights:
-            return self.curves.points, None
-        moved = self.displacement
+    def _layers(self, join: Join) -> tuple[FloatArray, FloatArray | None, FloatArray]:
+        """Data points; the displacement that parts the surface, if any does; and the margins'."""
+        moved = self.displacement if self.weights else Displacement(np.zeros(()), np.zeros(()))
+        points = self.curves.points + moved.smooth
         if join == "smooth" and moved.parting.any():
-            return self.curves.points + moved.smooth, moved.parting
-        return self.curves.points + moved.smooth + moved.parting, None
+            return points, moved.parting, moved.margins
+        return points + moved.parting, None, moved.margins
 
     def mesh(
         self,
@@ -180,12 +180,12 @@ class Face:
                 lips and the mesh is fine enough; ``"none"`` for the paper's, closed everywhere.
         """
         grid = self.uv_mesh(rows, columns, join=join, extent=extent, openings=openings)
-        points, parting = self._layers(join)
+        points, parting, margins = self._layers(join)
         if parting is not None:
             points = np.concatenate([points, parting])
         shape = self.curves.shape
         evaluator = sampler(shape, grid, self.a, self.modes, join, parting is not None)
-        vertices, normals = evaluator.positions_and_normals(points)
+        vertices, normals = evaluator.positions_and_normals(points, margins)
         return FaceMesh(
             vertices=vertices,
             normals=normals,

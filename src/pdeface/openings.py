@@ -13,13 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Cut", "Opening", "cut_rows", "snapped"]
+__all__ = ["SAMPLES", "Cut", "Opening", "cut_rows", "snapped"]
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
 FEWEST = 5
 """Columns of an opening, its two corners among them, on the coarsest mesh that has it."""
+
+SAMPLES = 41
+"""Places at which the template gives each line of an opening."""
+
+MERGING = 0.1
+"""Of the width of an opening, from each corner: there its two sides come to move as one."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +54,29 @@ class Opening:
     def lines(self, v: FloatArray) -> tuple[FloatArray, FloatArray]:
         """u of the upper and of the lower line at each v between the corners."""
         return np.interp(v, self.v, self.upper), np.interp(v, self.v, self.lower)
+
+    def slopes(self, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """du/dv of the upper and of the lower line at each v, as of smooth lines."""
+        upper, lower = (np.gradient(np.array(u), self.v) for u in (self.upper, self.lower))
+        return np.interp(v, self.v, upper), np.interp(v, self.v, lower)
+
+    def apart(self, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """How far each side moves by itself at each v, 0 at the corners to 1, and d/dv of it."""
+        start, end = self.corners
+        reach = MERGING * (end - start)
+        near = (np.minimum(v - start, end - v) / reach).clip(0.0, 1.0)
+        rise = np.where(v - start < end - v, 6.0, -6.0) / reach
+        return near * near * (3.0 - 2.0 * near), rise * near * (1.0 - near)
+
+    def belonging(self, u: FloatArray, v: FloatArray, *, upper: bool) -> FloatArray:
+        """u at which what parts a side is read, for places (u, v) on it.
+
+        Between its line and its curve a side moves as the curve does; at a corner, where there is
+        but one line, both move as the surface between the two curves.
+        """
+        above, below = self.rows
+        limit = np.minimum(u, above) if upper else np.maximum(u, below)
+        return np.asarray(u + self.apart(v)[0] * (limit - u))
 
 
 @dataclass(frozen=True)

@@ -114,7 +114,7 @@ class FaceParts:
         self._face = face
         self._rest = face.curves.points + person(face.weights, face.curves.shape)
         self._weights = {n: w for n, w in face.weights.items() if CONTROLS[n].kind == "expression"}
-        rest = self._sampled(self._rest, np.zeros_like(self._rest))
+        rest = self.outline(Displacement(self._rest, np.zeros_like(self._rest)))
         lids = [self._blinking(blink) for blink in _BLINKS]
         self._anatomy = placed(rest, lids)
 
@@ -124,7 +124,10 @@ class FaceParts:
 
     def outline(self, by: Displacement) -> Outline:
         """How far a displacement of the face's curves takes the margins of its openings."""
-        return self._sampled(by.smooth, by.parting)
+        shape, a, modes = self._face.curves.shape, self._face.a, self._face.modes
+        lines = (seam(name, shape, a, modes).lines(by.smooth, by.parting) for name in OPENINGS)
+        moved = zip(lines, by.margins, strict=True)
+        return Outline(*(Margins(*(np.array(line) + margins)) for line, margins in moved))
 
     def moved(self, name: str, outline: Outline, weights: Mapping[str, float]) -> FloatArray:
         """(K, M, 3) displacement of a part's curves where expressions displace the face's.
@@ -142,12 +145,7 @@ class FaceParts:
 
     def _blinking(self, blink: float) -> Outline:
         moved = self._expressed({"eyeBlinkLeft": blink, "eyeBlinkRight": blink})
-        return self._sampled(self._rest + moved.smooth, moved.parting)
+        return self.outline(moved._replace(smooth=self._rest + moved.smooth))
 
     def _expressed(self, weights: Mapping[str, float]) -> Displacement:
         return expressed(self._rest, weights, self._face.a, self._face.modes)
-
-    def _sampled(self, smooth: FloatArray, parting: FloatArray) -> Outline:
-        shape, a, modes = self._face.curves.shape, self._face.a, self._face.modes
-        lines = (seam(name, shape, a, modes).lines(smooth, parting) for name in OPENINGS)
-        return Outline(*(Margins(*pair) for pair in lines))

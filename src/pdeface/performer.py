@@ -151,8 +151,7 @@ def _alone(face: Face, rest: FloatArray, name: str) -> Displacement:
     """What an expression adds to the curves at full weight, as a morph target does."""
     company = COMPANY.get(name, {})
     before = expressed(rest, company, face.a, face.modes)
-    after = expressed(rest, {**company, name: 1.0}, face.a, face.modes)
-    return Displacement(after.smooth - before.smooth, after.parting - before.parting)
+    return expressed(rest, {**company, name: 1.0}, face.a, face.modes).less(before)
 
 
 def _layers(moved: Displacement, parts: bool) -> FloatArray:

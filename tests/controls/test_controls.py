@@ -117,10 +117,10 @@ def test_every_expression_moves_and_its_two_sides_mirror_each_other(level: str) 
     for name in EXPRESSIONS:
         if name == "tongueOut":  # which moves nothing of the face itself
             continue
-        moved = sum(controls.displacement({name: 1.0}, shape))
+        moved = sum(controls.displacement({name: 1.0}, shape)[:2])
         assert 5e-4 < np.abs(moved).max() < 0.06, name
         if name.endswith("Left") and name not in ("jawLeft", "mouthLeft"):
-            other = sum(controls.displacement({name.replace("Left", "Right"): 1.0}, shape))
+            other = sum(controls.displacement({name.replace("Left", "Right"): 1.0}, shape)[:2])
             mirrored = other[:, :half][:, ::-1] * [-1, 1, 1]
             # The source's two sides are not to the last bit the same.
             assert np.abs(moved[:, :half] - mirrored).max() < 0.15 * np.abs(moved).max(), name

@@ -93,7 +93,7 @@ class Outline:
             u, v = outline_uv(name)
             places = surface(u, np.broadcast_to(v, u.shape))
             if parting is not None:
-                on_curves = [np.minimum(u[0], opening.rows[0]), np.maximum(u[1], opening.rows[1])]
+                on_curves = [opening.belonging(u[i], v, upper=i == 0) for i in (0, 1)]
                 places = places + parting(np.stack(on_curves), np.broadcast_to(v, u.shape))
             margins[name] = Margins(*places)
         return cls(**margins)

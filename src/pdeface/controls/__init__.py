@@ -103,7 +103,7 @@ def posed(
     size = points.shape[0], points.shape[1]
     own = person(weights, size)
     moved = expressed(points + own, _of_kinds(weights, {"expression"}), a, modes)
-    return Displacement(own + moved.smooth, moved.parting)
+    return moved._replace(smooth=own + moved.smooth)
 
 
 def _of_kinds(weights: Mapping[str, float], kinds: set[str]) -> dict[str, float]:

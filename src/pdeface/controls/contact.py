@@ -1,8 +1,9 @@
 """Expressions together: what simple addition would leave open or push through.
 
 Lids: when a blink is at b, what all else leaves between the lids is at 1 - b of its size, so that a
-full blink closes the eye of anyone, however wide or narrowed it is and wherever it looks. Alone
-on a face a blink is linear in b; with others it is linear in each of them.
+full blink closes the eye of anyone, however wide or narrowed it is and wherever it looks. What the
+curves cannot follow of that, the margins do by themselves. Alone on a face a blink is linear in b;
+with others it is linear in each of them.
 
 Lips: their two sides may part but not cross. Each expression alone keeps to that, and so does a sum
 of them: gaps add. ``mouthClose`` closes what ``jawOpen`` opens, and no more.
@@ -18,8 +19,9 @@ from numpy.typing import NDArray
 
 from pdeface.controls import measured
 from pdeface.controls.arkit import SOURCES
-from pdeface.controls.measured import Displacement
-from pdeface.controls.seams import nearest, seam
+from pdeface.controls.measured import STILL, Displacement
+from pdeface.controls.seams import seam
+from pdeface.template.layout import OPENING_ROWS
 
 __all__ = ["COMPANY", "expressed"]
 
@@ -28,6 +30,7 @@ FloatArray = NDArray[np.float64]
 COMPANY: Mapping[str, Mapping[str, float]] = {"mouthClose": {"jawOpen": 1.0}}
 """Expressions that say something only together with others: a mouth is closed that is open."""
 
+_OPENINGS = tuple(OPENING_ROWS)
 _BLINKS = {"eyeBlinkRight": "right_eye", "eyeBlinkLeft": "left_eye"}
 
 
@@ -49,14 +52,20 @@ def expressed(
     if not weights:
         return Displacement(np.zeros(rest.shape), np.zeros(rest.shape))
     moved = measured.expressions(_sources(weights), size)
-    parting = moved.parting.copy()
+    closed = {name: _closed(rest, weights, name, a, modes) for name in _BLINKS if name in weights}
+    added = np.zeros_like(rest)
     for name, weight in weights.items():
-        parting += weight * _kept_apart(name, size, a, modes)
-    for blink, eye in _BLINKS.items():
-        if blink in weights:
-            others = {name: weight for name, weight in weights.items() if name != blink}
-            parting += _closed(rest, weights[blink], blink, others, eye, a, modes)
-    return Displacement(moved.smooth, parting)
+        added += weight * _kept_apart(name, size, a, modes)
+    for name, (_, by_curves) in closed.items():
+        added += weights[name] * by_curves
+    margins = STILL.copy()
+    for name, (wanted, by_curves) in closed.items():
+        weight, eye = weights[name], _BLINKS[name]
+        # A blink undoes what others' corrections do to its lids by the way.
+        by_others = added - weight * by_curves
+        done = seam(eye, size, a, modes).lines(np.zeros_like(rest), by_curves + by_others)
+        margins[_OPENINGS.index(eye)] = weight * (wanted - done)
+    return Displacement(moved.smooth, moved.parting + added, margins)
 
 
 def _effective(weights: Mapping[str, float]) -> dict[str, float]:
@@ -72,22 +81,20 @@ def _sources(weights: Mapping[str, float]) -> dict[str, float]:
 
 
 def _closed(
-    rest: FloatArray,
-    weight: float,
-    blink: str,
-    others: Mapping[str, float],
-    eye: str,
-    a: float,
-    modes: int,
-) -> FloatArray:
-    """What a blink lacks: the upper lid brought to the lower, wherever others have put the two."""
+    rest: FloatArray, weights: Mapping[str, float], blink: str, a: float, modes: int
+) -> tuple[FloatArray, FloatArray]:
+    """What a full blink lacks, wherever others have put the lids: both brought to one line.
+
+    Returns:
+        (2, n, 3) displacement of the two margins; (K, M, 3) parting displacement of the curves,
+        which brings them nearly there.
+    """
     size = rest.shape[0], rest.shape[1]
-    lids = seam(eye, size, a, modes)
-    by_others = measured.expressions(_sources(others), size)
-    by_blink = measured.expressions(_sources({blink: 1.0}), size)
-    shut = by_others.smooth + by_blink.smooth, by_others.parting + by_blink.parting
-    upper, lower = lids.lines(rest + shut[0], shut[1])
-    return lids.moved(weight * (nearest(lower, upper) - upper), share=1.0)
+    lids = seam(_BLINKS[blink], size, a, modes)
+    moved = measured.expressions(_sources({**weights, blink: 1.0}), size)
+    shut = np.array(lids.lines(rest + moved.smooth, moved.parting))
+    wanted = lids.meeting(shut[1]) - shut
+    return wanted, lids.moved(*wanted)
 
 
 @lru_cache(maxsize=1024)
@@ -96,6 +103,7 @@ def _kept_apart(name: str, size: tuple[int, int], a: float, modes: int) -> Float
     lips = seam("mouth", size, a, modes)
     moved = measured.expressions(_sources({**COMPANY.get(name, {}), name: 1.0}), size)
     crossed = lips.gap(moved.smooth, moved.parting)[:, 1].clip(max=0.0)
-    apart = lips.moved(np.multiply.outer(-crossed, [0.0, 1.0, 0.0]), share=0.5)
+    up = np.multiply.outer(-0.5 * crossed, [0.0, 1.0, 0.0])
+    apart = lips.moved(up, -up)
     apart.setflags(write=False)
     return apart

@@ -18,13 +18,15 @@ from numpy.typing import NDArray
 
 from pdeface.curves import curve_parameters, mirror_points
 from pdeface.errors import InputError
+from pdeface.openings import SAMPLES
 from pdeface.pde import Continuity, GridEvaluator
-from pdeface.template.layout import PAPER_ROWS, ROWS
+from pdeface.template.layout import OPENING_ROWS, PAPER_ROWS, ROWS
 
 __all__ = [
     "DATA",
     "IDENTITIES",
     "LEVEL",
+    "STILL",
     "Displacement",
     "expressions",
     "has_lids",
@@ -42,16 +44,28 @@ IDENTITIES = 50
 """Identity modes kept of 100: they hold 98 per cent of the variance of the heads."""
 
 
+STILL = np.zeros((len(OPENING_ROWS), 2, SAMPLES, 3))
+"""Margins that nothing moves."""
+STILL.setflags(write=False)
+
+
 class Displacement(NamedTuple):
-    """A displacement of closed curves, metres, in two parts that are added.
+    """A displacement of a face, metres, in three parts that are added.
 
     Attributes:
-        smooth: (K, M, 3) what the surface follows without a break.
-        parting: (K, M, 3) what parts lids and lips; its surface is slit there.
+        smooth: (K, M, 3) of the curves: what the surface follows without a break.
+        parting: (K, M, 3) of the curves: what parts lids and lips; its surface is slit there.
+        margins: (openings, 2, samples, 3) of the margins of openings, where a face has them: what
+            its curves cannot follow (:mod:`pdeface.margins`).
     """
 
     smooth: FloatArray
     parting: FloatArray
+    margins: FloatArray = STILL
+
+    def less(self, other: Displacement) -> Displacement:
+        """The difference of two."""
+        return Displacement(*(mine - theirs for mine, theirs in zip(self, other, strict=True)))
 
 
 def slits(curves: int) -> dict[int, Continuity]:

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from pdeface.controls.measured import slits
 from pdeface.curves import curve_parameters, mirror_points
 from pdeface.openings import Opening
+from pdeface.pde import PDESurface
 from pdeface.pde.scattered import point_weights
-from pdeface.template import openings
+from pdeface.template import neutral_curves, openings
 from pdeface.template.layout import PAPER_ROWS
 
 __all__ = ["Seam", "nearest", "seam"]
@@ -47,7 +48,10 @@ class Seam:
         options = {"a": a, "modes": modes}
         parting = slits(size[0])
         lines = np.array(opening.upper), np.array(opening.lower)
-        on_curves = [np.minimum(lines[0], opening.rows[0]), np.maximum(lines[1], opening.rows[1])]
+        on_curves = [
+            opening.belonging(line, v, upper=upper)
+            for line, upper in zip(lines, (True, False), strict=True)
+        ]
         upper, lower = (
             (
                 point_weights(size, line, v, **options),  # type: ignore[arg-type]
@@ -56,6 +60,7 @@ class Seam:
             for line, curve in zip(lines, on_curves, strict=True)
         )
         self._weights = upper, lower
+        self._meeting = _meeting(opening)
         self._half = size[0], size[1] // 2
         row = np.linspace(0.0, PAPER_ROWS - 1.0, size[0])
         above, below = (u * (PAPER_ROWS - 1.0) for u in opening.rows)
@@ -83,18 +88,20 @@ class Seam:
         upper, lower = self.lines(smooth, parting)
         return np.asarray(upper - lower)
 
-    def moved(self, change: FloatArray, share: float) -> FloatArray:
-        """(K, M, 3) parting displacement that changes the gap by (n, 3).
+    def meeting(self, lower: FloatArray) -> FloatArray:
+        """(n, 3) where the two sides meet: on the lower one, that both are shut along.
 
-        Args:
-            change: what the upper side shall move relative to the lower.
-            share: of the upper side, 0 to 1; the lower moves the other way.
+        At one v the two sides lie across from each other only roughly. They meet half-way along
+        the lower one between its own place and the one as far across the opening as the upper's.
         """
+        return self._meeting @ lower
+
+    def moved(self, upper: FloatArray, lower: FloatArray) -> FloatArray:
+        """(K, M, 3) parting displacement that moves the two sides by (n, 3) each, as well as
+        curves can."""
         half = np.zeros((*self._half, 3))
-        shares = share, share - 1.0
-        for part, fade, solve in zip(shares, self._fades, self._solve, strict=True):
-            if part:
-                half += fade[:, None, None] * np.einsum("cvn,nc->vc", solve, part * change)
+        for change, fade, solve in zip((upper, lower), self._fades, self._solve, strict=True):
+            half += fade[:, None, None] * np.einsum("cvn,nc->vc", solve, change)
         return mirror_points(half)
 
 
@@ -116,6 +123,20 @@ def _solution(
 def _least_squares(system: FloatArray, importance: FloatArray) -> FloatArray:
     damped = np.concatenate([importance * system, DAMPING * np.eye(system.shape[1])])
     return np.asarray(np.linalg.pinv(damped)[:, : len(system)] * importance.T)
+
+
+def _meeting(opening: Opening) -> FloatArray:
+    """(n, n) weights of the places of the lower line where the two sides of an opening meet."""
+    surface, v = PDESurface(neutral_curves().points), np.array(opening.v)
+    upper, lower = (_along(surface(np.array(u), v)) for u in (opening.upper, opening.lower))
+    across_from = np.interp(upper, lower, v)
+    return np.stack([np.interp(0.5 * (v + across_from), v, row) for row in np.eye(len(v))], axis=1)
+
+
+def _along(line: FloatArray) -> FloatArray:
+    """(n,) how far along a line each of its (n, 3) places lies, 0 to 1."""
+    length = np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))
+    return np.concatenate([[0.0], length / length[-1]])
 
 
 def nearest(line: FloatArray, places: FloatArray) -> FloatArray:

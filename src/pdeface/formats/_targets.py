@@ -119,15 +119,16 @@ class MorphTargets:
         parts = self.join == "smooth"
         base = _layers(self.face.curves.points + own.smooth, own.parting, parts)
         points = np.array([_layers(one.smooth, one.parting, parts) for one in moved])
+        margins = np.array([one.margins for one in moved])
         mirrored = self.face.curves.is_mirrored
         evaluator = sampler(
             shape, self.surface.uv_mesh, self.face.a, self.face.modes, self.join, parts, mirrored
         )
         step = max(1, _BATCH // (6 * count))
         for start in range(0, len(points), step):
-            some = points[start : start + step]
-            positions = evaluator.positions(some)
-            normals = evaluator.normals(some + base)
+            some, edges = points[start : start + step], margins[start : start + step]
+            positions = evaluator.positions(some, edges)
+            normals = evaluator.normals(some + base, edges + own.margins)
             for position, normal in zip(positions, normals, strict=True):
                 yield position.astype(np.float32), self._turned(normal)
 
@@ -149,7 +150,7 @@ class MorphTargets:
             company = {**kept, **COMPANY.get(name, {})}
             alone = expressed(rest, company, face.a, face.modes) if company != kept else before
             after = expressed(rest, {**company, **self.controls(name)}, face.a, face.modes)
-            yield Displacement(after.smooth - alone.smooth, after.parting - alone.parting)
+            yield after.less(alone)
 
     def _turned(self, normals: NDArray[np.floating]) -> Float32:
         """Normals less those of the face; 0 where the surface is pinched and has none."""
