@@ -30,6 +30,7 @@ FloatArray = NDArray[np.float64]
 COMPANY: Mapping[str, Mapping[str, float]] = {"mouthClose": {"jawOpen": 1.0}}
 """Expressions that say something only together with others: a mouth is closed that is open."""
 
+_OF_LIDS = ("eyeWide", "eyeLookUp", "eyeLookDown", "eyeLookIn", "eyeLookOut")
 _OPENINGS = tuple(OPENING_ROWS)
 _BLINKS = {"eyeBlinkRight": "right_eye", "eyeBlinkLeft": "left_eye"}
 
@@ -51,7 +52,7 @@ def expressed(
     weights = _effective(weights)
     if not weights:
         return Displacement(np.zeros(rest.shape), np.zeros(rest.shape))
-    moved = measured.expressions(_sources(weights), size)
+    moved = measured.expressions(_sources(_lidded(weights)), size)
     closed = {name: _closed(rest, weights, name, a, modes) for name in _BLINKS if name in weights}
     added = np.zeros_like(rest)
     for name, weight in weights.items():
@@ -76,8 +77,14 @@ def _effective(weights: Mapping[str, float]) -> dict[str, float]:
     return {name: weight for name, weight in effective.items() if weight}
 
 
-def _sources(weights: Mapping[str, float]) -> dict[str, float]:
-    return {source: weight for name, weight in weights.items() for source in SOURCES[name]}
+def _lidded(weights: Mapping[str, float]) -> dict[str, float]:
+    """The weights, of what opens and lowers a lid no more than a blink leaves of its opening."""
+    left = dict(weights)
+    for blink, side in (("eyeBlinkRight", "Right"), ("eyeBlinkLeft", "Left")):
+        for name in (each + side for each in _OF_LIDS):
+            if name in left:
+                left[name] *= 1.0 - weights.get(blink, 0.0)
+    return left
 
 
 def _closed(
@@ -91,10 +98,14 @@ def _closed(
     """
     size = rest.shape[0], rest.shape[1]
     lids = seam(_BLINKS[blink], size, a, modes)
-    moved = measured.expressions(_sources({**weights, blink: 1.0}), size)
+    moved = measured.expressions(_sources(_lidded({**weights, blink: 1.0})), size)
     shut = np.array(lids.lines(rest + moved.smooth, moved.parting))
     wanted = lids.meeting(shut[1]) - shut
     return wanted, lids.moved(*wanted)
+
+
+def _sources(weights: Mapping[str, float]) -> dict[str, float]:
+    return {source: weight for name, weight in weights.items() for source in SOURCES[name]}
 
 
 @lru_cache(maxsize=1024)

@@ -8,6 +8,7 @@ gives it the size it should have.
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +31,9 @@ REACH = {"right_eye": 4.0, "left_eye": 4.0, "mouth": 5.0}
 DAMPING = 0.3
 """Of the data points that are corrected: a correction does not ring."""
 
-BESIDE = 1.0
-"""How far beyond the corners of an opening data points are corrected, in points."""
+WIDTH, OUTSIDE = 2.0, 10
+"""How far beyond each corner data points are corrected, in points, and at how many places there
+they are asked to do nothing."""
 
 
 class Seam:
@@ -45,7 +47,7 @@ class Seam:
 
     def __init__(self, opening: Opening, size: tuple[int, int], a: float, modes: int) -> None:
         v = np.array(opening.v)
-        options = {"a": a, "modes": modes}
+        options: dict[str, Any] = {"a": a, "modes": modes}
         parting = slits(size[0])
         lines = np.array(opening.upper), np.array(opening.lower)
         on_curves = [
@@ -54,8 +56,8 @@ class Seam:
         ]
         upper, lower = (
             (
-                point_weights(size, line, v, **options),  # type: ignore[arg-type]
-                point_weights(size, curve, v, continuity=parting, **options),  # type: ignore[arg-type]
+                point_weights(size, line, v, **options),
+                point_weights(size, curve, v, continuity=parting, **options),
             )
             for line, curve in zip(lines, on_curves, strict=True)
         )
@@ -70,12 +72,17 @@ class Seam:
             for away in (above - row, row - below)
         ]
         at = curve_parameters(size[1])[: size[1] // 2]
-        step = at[1] - at[0]
-        near = (at > v[0] - BESIDE * step) & (at < v[-1] + BESIDE * step)
-        self._solve = [
-            _solution(weights[1].reshape(len(v), *size), fade, v, near)
-            for weights, fade in zip((upper, lower), self._fades, strict=True)
-        ]
+        beside = np.linspace(0.0, WIDTH, OUTSIDE + 1)[1:] * (at[1] - at[0])
+        places = np.concatenate([v, v[0] - beside, v[-1] + beside])
+        near = (at > places.min()) & (at < places.max())
+        importance = _importance(v, len(places))
+        self._solve = []
+        for u, fade in zip(opening.rows, self._fades, strict=True):
+            curve = np.full(len(places), u)
+            weights = point_weights(size, curve, places, continuity=parting, **options)
+            line = np.einsum("nkm,k->nm", weights.reshape(-1, *size), fade)
+            solution = _solution(line, near, importance)
+            self._solve.append(solution[:, :, : len(v)] * opening.apart(v)[0])
 
     def lines(self, smooth: FloatArray, parting: FloatArray) -> tuple[FloatArray, FloatArray]:
         """(n, 3) places on the upper and the lower side, of points and parting displacements."""
@@ -98,23 +105,25 @@ class Seam:
 
     def moved(self, upper: FloatArray, lower: FloatArray) -> FloatArray:
         """(K, M, 3) parting displacement that moves the two sides by (n, 3) each, as well as
-        curves can."""
+        curves can; beyond the corners, where the sides are one, it does nothing."""
         half = np.zeros((*self._half, 3))
         for change, fade, solve in zip((upper, lower), self._fades, self._solve, strict=True):
             half += fade[:, None, None] * np.einsum("cvn,nc->vc", solve, change)
         return mirror_points(half)
 
 
-def _solution(
-    weights: FloatArray, fade: FloatArray, v: FloatArray, near: NDArray[np.bool_]
-) -> FloatArray:
-    """(3, M/2, n) weights of the change wanted along a line, in x, y and z, in the data points of
-    half a curve whose fading displacement makes it."""
-    line = np.einsum("nkm,k->nm", weights, fade)
-    half = weights.shape[2] // 2
+def _importance(v: FloatArray, places: int) -> FloatArray:
+    """(places, 1) of each place: columns crowd at corners, where next to nothing is to change."""
+    importance = np.ones((places, 1))
+    importance[: len(v), 0] = np.sqrt(np.gradient(v) / np.gradient(v).mean())
+    return importance
+
+
+def _solution(line: FloatArray, near: NDArray[np.bool_], importance: FloatArray) -> FloatArray:
+    """(3, M/2, n) weights of the change wanted at n places on a curve, in x, y and z, in the data
+    points of half a curve whose fading displacement makes it."""
+    half = line.shape[1] // 2
     front, back = line[:, :half] * near, line[:, half:][:, ::-1] * near
-    # Columns crowd at the corners, where next to nothing is left to change.
-    importance = np.sqrt(np.gradient(v) / np.gradient(v).mean())[:, None]
     even, odd = (_least_squares(front + sign * back, importance) for sign in (1.0, -1.0))
     # Of the mirrored back half, x and y go with those of the front and z goes against it.
     return np.stack([even, even, odd])
