@@ -27,7 +27,17 @@ def examples(name: str) -> list[list[str]]:
 
 def test_the_commands_are_those_of_the_readme(root) -> None:
     text = (root / "README.md").read_text(encoding="utf-8")
-    assert NAMES == ["animate", "controls", "export", "info", "make", "paper", "points", "render"]
+    assert NAMES == [
+        "animate",
+        "controls",
+        "export",
+        "fit",
+        "info",
+        "make",
+        "paper",
+        "points",
+        "render",
+    ]
     assert all(f"pdeface {name}" in text for name in NAMES)
 
 

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import pdeface
-from pdeface.cli import animate, controls, export, info, make, paper, points, render
+from pdeface.cli import animate, controls, export, fit, info, make, paper, points, render
 from pdeface.errors import InputError, PDEFaceError
 
 __all__ = ["app", "run"]
@@ -28,6 +28,7 @@ app = typer.Typer(
 )
 app.command("make")(make.make)
 app.command("points")(points.points)
+app.command("fit")(fit.fit)
 app.command("export")(export.export)
 app.command("render")(render.render)
 app.command("animate")(animate.animate)
@@ -60,6 +61,7 @@ def _pdeface(
     Examples:
       pdeface make -o face.glb -o face.pdeface    the bundled portrait as a textured face
       pdeface make me.jpg -o me.glb               a photo of your own
+      pdeface fit head.ply -o face.pdeface        a scan of a head
       pdeface export face.pdeface -o face.obj     another format, any mesh size
       pdeface render face.pdeface -o face.png     a picture of it
       pdeface animate face.pdeface talk -o a.glb  a face that talks

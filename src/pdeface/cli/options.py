@@ -26,6 +26,7 @@ __all__ = [
     "SetOption",
     "VisemesOption",
     "check_outputs",
+    "parse_level",
     "parse_mesh",
     "parse_size",
 ]
@@ -111,6 +112,15 @@ def parse_mesh(text: str) -> tuple[int, int]:
             f"--mesh may have {MOST_VERTICES:,} vertices at most, got {text}; try 1081x641"
         )
     return rows, columns
+
+
+def parse_level(text: str) -> tuple[int, int]:
+    """(curves, points on each) of ``"28x46"``.
+
+    Raises:
+        InputError: not two numbers.
+    """
+    return _two_numbers(text, "--level", "CURVESxPOINTS", "55x92")
 
 
 def parse_size(text: str) -> tuple[int, int]:

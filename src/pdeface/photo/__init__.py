@@ -17,7 +17,7 @@ from pdeface.photo.bundled import portrait_face
 from pdeface.photo.covering import COVERED, covered
 from pdeface.photo.doubts import doubts
 from pdeface.photo.found import PhotoFace, choose
-from pdeface.photo.landmarker import find_faces
+from pdeface.photo.landmarker import find_faces, glances
 from pdeface.photo.model import model_file
 from pdeface.photo.person import TextureWay, photo_views, textured
 from pdeface.photo.points import feature_points
@@ -37,6 +37,7 @@ __all__ = [
     "feature_points",
     "find_faces",
     "fit_shape",
+    "glances",
     "model_file",
     "photo_report",
     "photo_views",

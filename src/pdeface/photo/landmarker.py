@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from pdeface.photo import _views
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.model import model_file
 
-__all__ = ["find_faces"]
+__all__ = ["find_faces", "glances"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -54,6 +54,34 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
             if faces := _views.distinct(_faces_in(closer, detect, pixels.shape)):
                 return faces
     return []
+
+
+@contextmanager
+def glances(model: PathLike | None = None) -> Iterator[Callable[[Any], list[PhotoFace]]]:
+    """A function that looks once at each picture it is given, for as long as the block runs.
+
+    What :func:`find_faces` does by many looks at one photo, this leaves to who knows where the face
+    is, or has many pictures.
+
+    Args:
+        model: as for :func:`find_faces`.
+
+    Yields:
+        A function from (H, W, 3) uint8 pixels to the faces in them, the largest first.
+
+    Raises:
+        InputError, MissingExtraError: as for :func:`find_faces`.
+    """
+    with _quiet():
+        require("mediapipe", "photo", "to find faces in pictures")
+    path = model_file(model)
+    with _quiet(), _landmarker(path) as detect:
+
+        def look(pixels: Any) -> list[PhotoFace]:
+            view = _views.View(_checked(pixels), (0.0, 0.0), (pixels.shape[1], pixels.shape[0]))
+            return _views.distinct(_faces_in([view], detect, pixels.shape))
+
+        yield look
 
 
 def _checked(photo: Any) -> Pixels:

@@ -1,0 +1,134 @@
+"""``pdeface fit``: a face from a scan."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from pdeface.cli.options import (
+    DEFAULT_MESH,
+    MeshOption,
+    ModelOption,
+    QuietOption,
+    check_outputs,
+    parse_level,
+    parse_mesh,
+)
+from pdeface.cli.report import Report
+
+if TYPE_CHECKING:
+    from pdeface.scan import Landmarks, Measures, ScanFit
+
+__all__ = ["fit"]
+
+
+def fit(
+    scan: Annotated[
+        Path,
+        typer.Argument(metavar="SCAN", help="A head or face: .obj, .ply, .stl, .glb, .gltf or "
+                       ".off; a mesh or a cloud of points."),
+    ],
+    out: Annotated[
+        list[Path],
+        typer.Option("-o", "--out", metavar="OUT", help="File to write; may be repeated. The "
+                     "suffix picks the format: .pdeface, .glb, .gltf, .vrm, .obj, .ply or .stl."),
+    ],
+    level: Annotated[
+        str,
+        typer.Option("--level", metavar="CURVESxPOINTS", help="Boundary curves: 28x46 (the "
+                     "paper's), 55x92, 109x184 or any other of 27 n + 1 curves."),
+    ] = "55x92",
+    units: Annotated[
+        Literal["m", "cm", "mm"] | None,
+        typer.Option("--units", help="Unit of the scan; without it the one in which its eyes are "
+                     "as far apart as a person's."),
+    ] = None,
+    landmarks: Annotated[
+        Path | None,
+        typer.Option("--landmarks", metavar="FILE", help="JSON file of points on the scan "
+                     "(docs/scans.md). Without it they are found by MediaPipe."),
+    ] = None,
+    report_picture: Annotated[
+        Path | None,
+        typer.Option("--report", metavar="PICTURE", help="Picture of scan, fit and how far they "
+                     "differ to write, ending in .png."),
+    ] = None,
+    model: ModelOption = None,
+    texture: Annotated[
+        bool, typer.Option("--texture/--no-texture", help="Carry the scan's colours over."),
+    ] = True,
+    mesh: MeshOption = DEFAULT_MESH,
+    quiet: QuietOption = False,
+) -> None:  # fmt: skip
+    """Fit a face to a scan.
+
+    The scan may have any scale, any orientation, holes, hair and shoulders. Its face is found on
+    this machine; it is sent nowhere. What comes out is a face like any other: it can be set,
+    animated and exported. A coarser level is the best fit at that level.
+
+    \b
+    Examples:
+      pdeface fit head.ply -o face.pdeface
+      pdeface fit head.obj -o face.pdeface --report fit.png
+      pdeface fit head.stl --units mm --level 109x184 -o face.glb
+      pdeface fit cloud.ply --landmarks points.json -o face.pdeface
+    """
+    size, curves = parse_mesh(mesh), parse_level(level)
+    import pdeface
+    from pdeface.formats import SUFFIXES
+    from pdeface.pictures.image_file import FORMATS as PICTURES
+    from pdeface.scan import fit_scan, measure, read_scan, texture_of
+    from pdeface.scan.fitting import check_level
+
+    check_level(curves)
+    check_outputs(out, [scan, landmarks, model], SUFFIXES)
+    check_outputs([report_picture] if report_picture else [], [scan, landmarks, model], [*PICTURES])
+    report = Report(quiet)
+    points = _points(landmarks)
+    with report.step(f"reading {scan}"):
+        head = read_scan(scan)
+    with report.step("fitting") as show:
+        found = fit_scan(head, curves, landmarks=points, units=units, model=model, progress=show)
+    if found.unit is None:
+        report.warn("the scan's unit is none of m, cm and mm; took its eyes to be 63 mm apart")
+    with report.step("measuring the fit"):
+        measures = measure(found)
+    _tell(report, found, measures)
+    face = found.face.with_name(scan.stem)
+    if texture:
+        with report.step("carrying the colours over"):
+            image = texture_of(found)
+            face = face if image is None else face.with_texture(image)
+    for path in out:
+        with report.step(f"writing {path}"):
+            pdeface.export(face, path, mesh=size)
+        report.wrote(path)
+    if report_picture is not None:
+        from pdeface.scan.report import report_sheet
+
+        with report.step(f"drawing {report_picture}"):
+            report_sheet(found, measures, report_picture)
+        report.wrote(report_picture)
+
+
+def _points(path: Path | None) -> Landmarks | None:
+    if path is None:
+        return None
+    from pdeface.scan import load_landmarks
+
+    return load_landmarks(path)
+
+
+def _tell(report: Report, found: ScanFit, measures: Measures) -> None:
+    """How near the fit is, over the front of the face."""
+    there, back = measures.to_scan, measures.to_face
+    report.result(
+        f"fit to scan: RMS {there.rms:.3f} mm, median {there.median:.3f}, 95 % {there.p95:.2f}, "
+        f"largest {there.largest:.2f}; normals {measures.normal:.1f} degrees"
+    )
+    report.result(
+        f"scan to fit: RMS {back.rms:.3f} mm, median {back.median:.3f}, 95 % {back.p95:.2f}, "
+        f"largest {back.largest:.2f}; coverage {100 * measures.coverage:.1f} %"
+    )

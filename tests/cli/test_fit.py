@@ -1,0 +1,64 @@
+"""``pdeface fit``: a scan's file in, a face's file and a picture out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import pdeface
+from pdeface.scan.landmark_file import known_places
+
+trimesh = pytest.importorskip("trimesh", reason="needs the extra 'scan'")
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """A scan of a random person in millimetres, and points on it."""
+    folder = tmp_path_factory.mktemp("scan")
+    face = pdeface.random(3, "55x92")
+    mesh = face.mesh(109, 101, openings="none")
+    trimesh.Trimesh(1e3 * mesh.vertices, mesh.triangles, process=False).export(folder / "head.ply")
+    surface = face.surface()
+    points = {name: (1e3 * surface(u, v)).tolist() for name, (u, v, _) in known_places().items()}
+    (folder / "points.json").write_text(json.dumps(points))
+    return folder / "head.ply", folder / "points.json"
+
+
+def test_a_scan_becomes_a_face(files, tmp_path: Path, pdeface_command) -> None:
+    scan, points = files
+    out, picture = tmp_path / "face.pdeface", tmp_path / "fit.png"
+    done = pdeface_command(
+        "fit", scan, "--landmarks", points, "-o", out, "--level", "28x46", "--report", picture
+    )
+    assert done.status == 0, done.err
+    assert "RMS" in done.out
+    assert "coverage 100.0 %" in done.out
+    face = pdeface.load(out)
+    assert face.curves.shape == (28, 46)
+    assert face.name == "head"
+    assert picture.stat().st_size > 100_000
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["SCAN", "-o", "a.png"], "suffix of the output"),
+        (["SCAN", "-o", "a.pdeface", "--level", "29x46"], "27 n"),
+        (["SCAN", "-o", "a.pdeface", "--level", "fine"], "--level needs"),
+        (["SCAN", "-o", "a.pdeface", "--report", "a.txt"], "suffix of the output"),
+        (["SCAN", "-o", "a.pdeface", "--landmarks", "none.json"], "found no file"),
+        (["none.ply", "-o", "a.pdeface"], "found no file"),
+        (["POINTS", "-o", "a.pdeface"], "a scan is one of"),
+        (["SCAN", "-o", "a.pdeface", "--landmarks", "POINTS", "--units", "m"], "no face's"),
+    ],
+)
+def test_bad_input_is_one_line(words, says, files, tmp_path, monkeypatch, pdeface_command) -> None:
+    monkeypatch.chdir(tmp_path)
+    places = {"SCAN": files[0], "POINTS": files[1]}
+    done = pdeface_command("fit", *(places.get(word, word) for word in words))
+    assert done.status == 2
+    assert says in done.err
+    assert len(done.err.splitlines()) == 1
+    assert not list(tmp_path.iterdir())
