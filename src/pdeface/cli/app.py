@@ -9,7 +9,18 @@ from typing import Annotated
 import typer
 
 import pdeface
-from pdeface.cli import animate, controls, export, fit, info, make, paper, points, render
+from pdeface.cli import (
+    animate,
+    controls,
+    export,
+    fit,
+    info,
+    make,
+    paper,
+    points,
+    render,
+    studio,
+)
 from pdeface.errors import InputError, PDEFaceError
 
 __all__ = ["app", "run"]
@@ -35,6 +46,7 @@ app.command("animate")(animate.animate)
 app.command("info")(info.info)
 app.command("controls")(controls.controls)
 app.command("paper")(paper.paper)
+app.command("studio")(studio.studio)
 
 
 def _show_version(wanted: bool) -> None:
@@ -67,6 +79,7 @@ def _pdeface(
       pdeface animate face.pdeface talk -o a.glb  a face that talks
       pdeface info face.pdeface                   what it is made of
       pdeface controls --kind expression          what it can be set to
+      pdeface studio                              all of this by hand, in the browser
 
     'pdeface COMMAND --help' tells more, with examples.
     """

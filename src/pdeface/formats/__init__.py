@@ -9,6 +9,7 @@ from pdeface.errors import InputError
 from pdeface.face import Face, Openings
 from pdeface.files import PathLike
 from pdeface.formats._animation import Animation
+from pdeface.formats._parts import part_on_mesh
 from pdeface.formats._sample import sample
 from pdeface.formats._targets import Expressions, MorphTargets, expression_names, target_names
 from pdeface.formats.gltf import write_glb, write_gltf
@@ -27,6 +28,7 @@ __all__ = [
     "export",
     "export_sequence",
     "expression_names",
+    "part_on_mesh",
     "target_names",
 ]
 

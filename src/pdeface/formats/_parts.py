@@ -12,7 +12,7 @@ from pdeface.anatomy import Outline, Part, textures
 from pdeface.formats._targets import MorphTargets
 from pdeface.parts import FaceParts, eye_colours, has_parts
 
-__all__ = ["PartSample", "sampled_parts"]
+__all__ = ["PartSample", "part_on_mesh", "sampled_parts"]
 
 Float32 = NDArray[np.float32]
 
@@ -54,13 +54,14 @@ def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
     if not targets.surface.uv_mesh.cuts or not has_parts(targets.face):
         return
     parts = FaceParts(targets.face)
-    detail = min(1.0, max(_COARSEST, targets.surface.uv_mesh.rows / _ROWS))
     outlines = [parts.outline(moved) for moved in targets.moved]
     for name, part in parts.parts.items():
-        yield _sampled(targets, parts, outlines, _sized(part, detail), name)
+        yield _sampled(targets, parts, outlines, part_on_mesh(part, targets.surface.uv_mesh.rows), name)
 
 
-def _sized(part: Part, detail: float) -> Part:
+def part_on_mesh(part: Part, face_rows: int) -> Part:
+    """The part sampled as finely as a face on a uv mesh of so many rows."""
+    detail = min(1.0, max(_COARSEST, face_rows / _ROWS))
     rows = max(_FEWEST_ROWS, round(part.rows * detail))
     return replace(part, rows=rows, columns=max(_FEWEST_COLUMNS, round(part.columns * detail)))
 

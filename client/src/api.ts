@@ -1,0 +1,87 @@
+// What is asked of the server. Every error is an Error whose message is a line for the page.
+
+import type { ArrayInfo, ClipInfo, ExportRequest, FaceInfo, Opened, PhotoInfo, Schema } from "./schema";
+
+export type Weights = Readonly<Record<string, number>>;
+export interface Size {
+  readonly rows: number;
+  readonly columns: number;
+}
+export interface Packet {
+  readonly header: Record<string, unknown>;
+  readonly arrays: Map<string, Float32Array | Int32Array>;
+}
+
+// The server does not know the face (any more): it was started anew, and wants it again.
+export class UnknownFace extends Error {}
+
+async function ask(path: string, init?: RequestInit): Promise<Response> {
+  let answer: Response;
+  try {
+    answer = await fetch(path, { ...init, credentials: "same-origin" });
+  } catch {
+    throw new Error("the server does not answer; start pdeface studio again, your work is kept here");
+  }
+  if (answer.ok) return answer;
+  let message = `the server refused (${answer.status})`;
+  try {
+    message = ((await answer.json()) as { error: string }).error;
+  } catch {
+    // Not one of its own refusals.
+  }
+  throw message.startsWith("the server knows no face") ? new UnknownFace(message) : new Error(message);
+}
+
+function post(path: string, value: unknown): Promise<Response> {
+  const body = value instanceof Blob ? value : JSON.stringify(value);
+  return ask(path, { method: "POST", body });
+}
+
+async function json<T>(answer: Promise<Response>): Promise<T> {
+  return (await (await answer).json()) as T;
+}
+
+// Arrays behind a JSON header, all little-endian, as every browser's machine is.
+async function packet(answer: Promise<Response>): Promise<Packet> {
+  const bytes = await (await answer).arrayBuffer();
+  const length = new DataView(bytes).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
+  const arrays = new Map<string, Float32Array | Int32Array>();
+  for (const info of header.arrays as ArrayInfo[]) {
+    const count = info.shape.reduce((product, size) => product * size, 1);
+    const Kind = info.type === "int32" ? Int32Array : Float32Array;
+    arrays.set(info.name, new Kind(bytes, 4 + length + info.offset, count));
+  }
+  return { header, arrays };
+}
+
+const face = (id: string) => `/api/faces/${encodeURIComponent(id)}`;
+const query = ({ rows, columns }: Size) => `rows=${rows}&columns=${columns}`;
+
+export const api = {
+  schema: () => json<Schema>(ask("/api/schema")),
+  first: () => json<FaceInfo>(ask("/api/first")),
+  known: (id: string) => json<FaceInfo>(ask(face(id))),
+  modelUrl: (id: string, size: Size) => `${face(id)}/model.glb?${query(size)}`,
+  model: async (id: string, size: Size) =>
+    (await ask(`${face(id)}/model.glb?${query(size)}`)).arrayBuffer(),
+  columns: (id: string, size: Size) => packet(ask(`${face(id)}/columns?${query(size)}`)),
+  evaluate: (id: string, size: Size, states: readonly Weights[]) =>
+    packet(post(`${face(id)}/evaluate`, { ...size, states })),
+  response: (id: string, size: Size, curve: number, point: number) =>
+    packet(post(`${face(id)}/response`, { ...size, curve, point })),
+  edit: (id: string, moves: readonly (readonly number[])[]) =>
+    json<FaceInfo>(post(`${face(id)}/edit`, { moves })),
+  save: async (id: string, name: string, weights: Weights) =>
+    (await post(`${face(id)}/save`, { name, weights })).blob(),
+  export: async (id: string, request: ExportRequest) =>
+    (await post(`${face(id)}/export`, request)).blob(),
+  open: (file: Blob) => json<Opened>(post("/api/open", file)),
+  clip: (name: string) => json<ClipInfo>(ask(`/api/clips/${encodeURIComponent(name)}`)),
+  bundledPhoto: () => json<PhotoInfo>(ask("/api/photos/bundled")),
+  photoUrl: (id: string) => `/api/photos/${encodeURIComponent(id)}`,
+  warp: async (id: string, points: Record<string, readonly number[]>) =>
+    (await post(`/api/photos/${encodeURIComponent(id)}/warp`, { points })).blob(),
+  applyPhoto: (id: string, faceId: string, points: Record<string, readonly number[]>) =>
+    json<FaceInfo>(post(`/api/photos/${encodeURIComponent(id)}/apply`, { face: faceId, points })),
+};

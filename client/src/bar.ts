@@ -1,0 +1,83 @@
+// The bar on top: whose face it is, undo and redo, files, theme, help.
+
+import { h } from "./dom";
+import { icon } from "./icons";
+import type { Studio } from "./studio";
+
+export interface Commands {
+  readonly open: () => void;
+  readonly save: () => void;
+  readonly exports: () => void;
+  readonly photo: () => void;
+  readonly motion: () => void;
+  readonly theme: () => void;
+  readonly help: () => void;
+}
+
+export class Bar {
+  #undo: HTMLButtonElement;
+  #redo: HTMLButtonElement;
+  #name: HTMLInputElement;
+  #history = h("div", { class: "menu", id: "history", hidden: true, role: "menu" });
+
+  constructor(
+    private studio: Studio,
+    place: HTMLElement,
+    commands: Commands,
+  ) {
+    const { timeline } = studio;
+    const tool = (name: string, label: string, act: () => void, text = "") =>
+      h("button", { class: text ? "tool named" : "tool", title: label, "aria-label": text || label, onclick: act },
+        icon(name), text || null);
+    this.#undo = tool("undo", "Undo (Ctrl+Z)", () => timeline.undo());
+    this.#redo = tool("redo", "Redo (Ctrl+Shift+Z)", () => timeline.redo());
+    const past = tool("history", "History", () => this.#toggleHistory());
+    this.#name = h("input", { class: "name", "aria-label": "Name of the face", maxlength: 120, spellcheck: "false" });
+    this.#name.addEventListener("change", () =>
+      timeline.commit("Rename", { ...timeline.doc, name: this.#name.value.trim() || "face" }));
+    place.append(
+      h("div", { class: "brand" }, h("b", {}, "pdeface"), " studio"),
+      this.#name,
+      h("div", { class: "cluster" }, this.#undo, this.#redo, h("div", { class: "anchor" }, past, this.#history)),
+      h("div", { class: "space" }),
+      h("div", { class: "cluster" },
+        tool("open", "Open a photo, a face or a motion (Ctrl+O)", commands.open, "Open"),
+        tool("photo", "Photo and its points", commands.photo, "Photo"),
+        tool("motion", "Motion", commands.motion, "Motion"),
+        tool("save", "Save as .pdeface (Ctrl+S)", commands.save, "Save"),
+        tool("export", "Export (Ctrl+E)", commands.exports, "Export")),
+      h("div", { class: "cluster" },
+        tool("theme", "Light or dark (L)", commands.theme),
+        tool("help", "Help and shortcuts (?)", commands.help)),
+    );
+    timeline.addEventListener("change", () => this.#show());
+    document.addEventListener("pointerdown", (event) => {
+      if (!(event.target as Element).closest(".anchor")) this.#history.hidden = true;
+    });
+    this.#show();
+  }
+
+  #show(): void {
+    const { timeline } = this.studio;
+    this.#undo.disabled = !timeline.canUndo;
+    this.#redo.disabled = !timeline.canRedo;
+    this.#name.value = timeline.doc.name;
+    if (!this.#history.hidden) this.#fillHistory();
+  }
+
+  #toggleHistory(): void {
+    this.#history.hidden = !this.#history.hidden;
+    if (!this.#history.hidden) this.#fillHistory();
+  }
+
+  #fillHistory(): void {
+    const { timeline } = this.studio;
+    const line = (label: string, index: number) =>
+      h("button", {
+        role: "menuitem", class: index > timeline.at ? "undone" : "",
+        "aria-current": index === timeline.at ? "step" : undefined,
+        onclick: () => timeline.go(index),
+      }, label);
+    this.#history.replaceChildren(...timeline.steps.map((step, i) => line(step.label, i)).reverse());
+  }
+}

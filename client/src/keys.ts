@@ -1,0 +1,35 @@
+// Every shortcut, in one table: what the help shows is what the page obeys.
+
+export interface Shortcut {
+  readonly keys: string;
+  readonly what: string;
+  readonly act: () => void;
+}
+
+// "Ctrl+Shift+z", "ArrowLeft", "?": Ctrl stands for the Mac's command key as well.
+function pressed(event: KeyboardEvent): string {
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  const control = event.ctrlKey || event.metaKey ? "Ctrl+" : "";
+  return control + (event.shiftKey && (control || key.length > 1) ? "Shift+" : "") + key;
+}
+
+// Keys that a field, a list or a slider needs for itself.
+function isTaken(event: KeyboardEvent): boolean {
+  const target = event.target as HTMLElement;
+  if (event.ctrlKey || event.metaKey) return target.matches("input:not([type=range])") && /^[zyacvx]$/i.test(event.key);
+  if (target.closest("dialog")) return true;
+  if (target.matches("input[type=range]")) return event.key.startsWith("Arrow") || /^[-+]$/.test(event.key);
+  if (target.matches("button, summary")) return event.key === " " || event.key === "Enter";
+  return target.matches("input, select, textarea");
+}
+
+export function listen(shortcuts: readonly Shortcut[]): void {
+  const table = new Map<string, Shortcut>();
+  for (const shortcut of shortcuts) for (const key of shortcut.keys.split(" ")) table.set(key, shortcut);
+  document.addEventListener("keydown", (event) => {
+    const shortcut = table.get(pressed(event));
+    if (!shortcut || isTaken(event)) return;
+    event.preventDefault();
+    shortcut.act();
+  });
+}

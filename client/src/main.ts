@@ -1,0 +1,101 @@
+// The page: everything made, and introduced to each other.
+
+import { api } from "./api";
+import { Bar } from "./bar";
+import { Timeline, type Step } from "./document";
+import { download, fileName } from "./dialogs";
+import { settled } from "./dom";
+import { help } from "./help";
+import { listen, type Shortcut } from "./keys";
+import { Panel } from "./panel";
+import { keepSession, lastSession, ownSession, type Session } from "./storage";
+import { Studio } from "./studio";
+import { setTheme, theme } from "./theme";
+import { toast } from "./toast";
+import { Tools } from "./tools";
+import { Viewer } from "./viewer";
+
+async function start(): Promise<void> {
+  setTheme(theme());
+  const stage = document.getElementById("stage")!;
+  const [schema, first] = await Promise.all([api.schema(), api.first()]);
+  const own = ownSession();
+  const left = own ?? lastSession();
+  const opened: Step = { label: "Opened", doc: { face: first.id, name: first.name, weights: first.weights } };
+  const timeline = own ? new Timeline(own.steps, own.at) : new Timeline([opened]);
+  const viewer = new Viewer(stage);
+  const studio = new Studio(schema, timeline, viewer);
+  const tools = new Tools(studio, stage);
+  const panel = new Panel(studio, document.getElementById("panel")!);
+  const switchTheme = () => {
+    setTheme(theme() === "dark" ? "light" : "dark");
+    dress();
+  };
+  const dress = () => {
+    if (viewer.display) viewer.display.theme = theme();
+    viewer.draw();
+  };
+  const save = async () => {
+    const { face, name, weights } = timeline.doc;
+    try {
+      download(await api.save(face, name, weights), fileName(name, ".pdeface"));
+    } catch (error) {
+      toast(error);
+    }
+  };
+  const nothing = () => toast("not yet");
+  const shortcuts: Shortcut[] = [
+    { keys: "1", what: "From the front", act: () => viewer.look("front") },
+    { keys: "2", what: "Three-quarter", act: () => viewer.look("threeQuarter") },
+    { keys: "3", what: "From the left side", act: () => viewer.look("profile") },
+    { keys: "4", what: "From the right side", act: () => viewer.look("otherProfile") },
+    { keys: "ArrowLeft", what: "Turn left", act: () => viewer.turn(-1, 0) },
+    { keys: "ArrowRight", what: "Turn right", act: () => viewer.turn(1, 0) },
+    { keys: "ArrowUp", what: "Turn up", act: () => viewer.turn(0, 1) },
+    { keys: "ArrowDown", what: "Turn down", act: () => viewer.turn(0, -1) },
+    { keys: "+ =", what: "Nearer", act: () => viewer.zoom(0.9) },
+    { keys: "-", what: "Farther", act: () => viewer.zoom(1 / 0.9) },
+    { keys: "f", what: "Fit", act: () => viewer.fit() },
+    { keys: "p", what: "Perspective or orthographic", act: () => tools.projection() },
+    { keys: "m", what: "Next way of showing", act: () => tools.nextMode() },
+    { keys: "c", what: "Boundary curves on top", act: () => tools.curves() },
+    { keys: "y", what: "Symmetry", act: () => panel.toggleSymmetry() },
+    { keys: "r", what: "Random face", act: () => panel.randomFace() },
+    { keys: "/", what: "Search controls", act: () => panel.focusSearch() },
+    { keys: "Ctrl+z", what: "Undo", act: () => timeline.undo() },
+    { keys: "Ctrl+Shift+z Ctrl+y", what: "Redo", act: () => timeline.redo() },
+    { keys: "Ctrl+s", what: "Save", act: () => void save() },
+    { keys: "l", what: "Light or dark", act: switchTheme },
+    { keys: "?", what: "This help", act: () => help(shortcuts) },
+  ];
+  new Bar(studio, document.getElementById("bar")!, {
+    open: nothing, save: () => void save(), exports: nothing, photo: nothing, motion: nothing,
+    theme: switchTheme, help: () => help(shortcuts),
+  });
+  listen(shortcuts);
+  const keep = settled(() => keepSession(timeline.steps, timeline.at), 150);
+  timeline.addEventListener("change", keep);
+  studio.addEventListener("shown", dress);
+  if (own) toast("Your work was recovered.");
+  else if (left && worthIt(left)) offer(left, timeline);
+  Object.assign(window, { studio, viewer });
+  await studio.load();
+  await studio.keepCurrent();
+  keep();
+}
+
+function worthIt({ steps }: Session): boolean {
+  return steps.length > 1;
+}
+
+function offer(left: Session, timeline: Timeline): void {
+  toast("There is unsaved work from an earlier window.", {
+    label: "Resume",
+    act: () => timeline.replace(left.steps, left.at),
+  });
+}
+
+start().catch((error: unknown) => {
+  document.documentElement.dataset.failed = "true";
+  toast(error instanceof Error ? error : new Error(String(error)));
+});

@@ -1,0 +1,207 @@
+// The stage: camera, orbit, lights, and the face. It draws when something has changed.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Head } from "./head";
+import { light } from "./lights";
+import { Display } from "./modes";
+
+export const VIEWS = {
+  front: [0, 0.03],
+  threeQuarter: [0.6, 0.06],
+  profile: [Math.PI / 2, 0.02],
+  otherProfile: [-Math.PI / 2, 0.02],
+} as const;
+
+export type View = keyof typeof VIEWS;
+
+const FIELD = 22;
+const TURN = 0.12;
+
+export class Viewer {
+  readonly canvas: HTMLCanvasElement;
+  readonly renderer: THREE.WebGLRenderer;
+  readonly scene = new THREE.Scene();
+  readonly controls: OrbitControls;
+  display: Display | null = null;
+  head: Head | null = null;
+  camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
+  frames = 0;
+  #perspective = new THREE.PerspectiveCamera(FIELD, 1, 0.02, 10);
+  #orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.02, 10);
+  #asked = 0;
+  #centre = new THREE.Vector3(0, 0, 0.05);
+  #radius = 0.14;
+  #animation = 0;
+
+  constructor(private stage: HTMLElement) {
+    this.canvas = document.createElement("canvas");
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("aria-label", "The face in 3D: drag to turn, wheel to zoom");
+    stage.append(this.canvas);
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.toneMapping = THREE.NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1.0;
+    this.camera = this.#perspective;
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.minDistance = 0.12;
+    this.controls.maxDistance = 3;
+    this.controls.addEventListener("change", () => this.draw());
+    light(this.scene, this.renderer);
+    new ResizeObserver(() => this.#resize()).observe(stage);
+    this.#resize();
+  }
+
+  show(head: Head): void {
+    const first = this.head === null;
+    if (this.head) {
+      this.scene.remove(this.head.root);
+      this.head.dispose();
+    }
+    this.head = head;
+    this.scene.add(head.root);
+    if (this.display) this.display.setHead(head);
+    else this.display = new Display(head);
+    this.display.resize(this.stage.clientWidth, this.stage.clientHeight);
+    this.#measure();
+    if (first) this.look("threeQuarter", false);
+    this.draw();
+  }
+
+  // Draw with the next frame of the screen, once however often it is asked.
+  draw(): void {
+    this.#asked ||= requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow(): void {
+    cancelAnimationFrame(this.#asked);
+    this.#asked = 0;
+    this.frames++;
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  look(view: View, gently = true): void {
+    const [azimuth, height] = VIEWS[view];
+    this.#turnTo(azimuth, height, this.#distance(), this.#centre.clone(), gently);
+  }
+
+  fit(): void {
+    const at = this.#spherical();
+    this.#turnTo(at.theta, Math.PI / 2 - at.phi, this.#distance(), this.#centre.clone(), true);
+  }
+
+  turn(azimuth: number, height: number): void {
+    const at = this.#spherical();
+    const up = THREE.MathUtils.clamp(Math.PI / 2 - at.phi + height * TURN, -1.4, 1.4);
+    this.#place(at.theta + azimuth * TURN, up, at.radius, this.controls.target);
+  }
+
+  zoom(by: number): void {
+    const at = this.#spherical();
+    const radius = THREE.MathUtils.clamp(at.radius * by, 0.12, 3);
+    this.#place(at.theta, Math.PI / 2 - at.phi, radius, this.controls.target);
+  }
+
+  get orthographic(): boolean {
+    return this.camera === this.#orthographic;
+  }
+
+  set orthographic(wanted: boolean) {
+    const next = wanted ? this.#orthographic : this.#perspective;
+    next.position.copy(this.camera.position);
+    this.camera = next;
+    this.controls.object = next;
+    this.#resize();
+    this.controls.update();
+    this.draw();
+  }
+
+  // The picture as a PNG, without the page's background.
+  still(width: number, height: number): Promise<Blob> {
+    const ratio = this.renderer.getPixelRatio();
+    this.renderer.setPixelRatio(1);
+    this.#setSize(width, height);
+    this.drawNow();
+    return new Promise((resolve, reject) => {
+      this.canvas.toBlob((blob) => {
+        this.renderer.setPixelRatio(ratio);
+        this.#resize();
+        if (blob) resolve(blob);
+        else reject(new Error("the browser could not make a picture; choose a smaller size"));
+      }, "image/png");
+    });
+  }
+
+  #measure(): void {
+    const box = new THREE.Box3().setFromObject(this.head!.root);
+    box.getCenter(this.#centre);
+    this.#radius = 0.5 * box.getSize(new THREE.Vector3()).y;
+  }
+
+  #distance(): number {
+    const half = THREE.MathUtils.degToRad(FIELD / 2);
+    const aspect = this.stage.clientWidth / Math.max(1, this.stage.clientHeight);
+    return (1.28 * this.#radius) / Math.tan(half) / Math.min(1, aspect * 1.1) + 0.05;
+  }
+
+  #spherical(): THREE.Spherical {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    return new THREE.Spherical().setFromVector3(away);
+  }
+
+  #place(azimuth: number, height: number, distance: number, target: THREE.Vector3): void {
+    const away = new THREE.Vector3().setFromSphericalCoords(distance, Math.PI / 2 - height, azimuth);
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).add(away);
+    this.#frame();
+    this.controls.update();
+    this.draw();
+  }
+
+  #turnTo(azimuth: number, height: number, distance: number, target: THREE.Vector3, gently: boolean) {
+    cancelAnimationFrame(this.#animation);
+    if (!gently || matchMedia("(prefers-reduced-motion: reduce)").matches) {
+      this.#place(azimuth, height, distance, target);
+      return;
+    }
+    const from = this.#spherical();
+    const start = this.controls.target.clone();
+    const began = performance.now();
+    const step = (now: number) => {
+      const t = Math.min(1, Math.max(0, (now - began) / 320));
+      const s = t * t * (3 - 2 * t);
+      const mix = (a: number, b: number) => a + (b - a) * s;
+      this.#place(
+        mix(from.theta, azimuth),
+        mix(Math.PI / 2 - from.phi, height),
+        mix(from.radius, distance),
+        start.clone().lerp(target, s),
+      );
+      if (t < 1) this.#animation = requestAnimationFrame(step);
+    };
+    this.#animation = requestAnimationFrame(step);
+  }
+
+  #resize(): void {
+    this.#setSize(this.stage.clientWidth, this.stage.clientHeight);
+    this.draw();
+  }
+
+  #setSize(width: number, height: number): void {
+    this.renderer.setSize(Math.max(1, width), Math.max(1, height), false);
+    this.display?.resize(width, height);
+    this.#perspective.aspect = width / Math.max(1, height);
+    this.#perspective.updateProjectionMatrix();
+    this.#frame();
+  }
+
+  // The orthographic camera shows what the other would at the same place.
+  #frame(): void {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const half = distance * Math.tan(THREE.MathUtils.degToRad(FIELD / 2));
+    const wide = half * this.#perspective.aspect;
+    Object.assign(this.#orthographic, { left: -wide, right: wide, top: half, bottom: -half });
+    this.#orthographic.updateProjectionMatrix();
+  }
+}

@@ -1,0 +1,183 @@
+"""A face of the studio on its uv mesh: what each control adds to it, and where it is exactly.
+
+Vertices come in one list: the skin's, those of each part behind the openings in their order, and
+last the data points of the boundary curves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.anatomy import Part
+from pdeface.controls import COMPANY, CONTROLS, Displacement, displacement, expressed
+from pdeface.errors import InputError
+from pdeface.face import Face
+from pdeface.formats import export, part_on_mesh
+from pdeface.parts import FaceParts, has_parts
+from pdeface.sampler import sampler
+
+__all__ = ["MOST_VERTICES", "Geometry"]
+
+FloatArray = NDArray[np.float64]
+Float32 = NDArray[np.float32]
+
+MOST_VERTICES = 60_000
+"""Of the skin, in the page; a file may have more."""
+
+_BATCH = 16
+_SIDES = ("right", "left")
+
+
+class Geometry:
+    """A face without weights on a uv mesh.
+
+    Args:
+        face: the face; its weights are left out.
+        rows, columns: of the uv mesh.
+
+    Raises:
+        InputError: a mesh that is too fine for the page.
+    """
+
+    def __init__(self, face: Face, rows: int, columns: int) -> None:
+        if rows * columns > MOST_VERTICES or min(rows, columns) < 2:
+            raise InputError(
+                f"the page shows 2 x 2 to {MOST_VERTICES:,} vertices, got {rows} x {columns}; "
+                "export finer meshes"
+            )
+        self.face = face.with_weights(dict.fromkeys(face.weights, 0.0))
+        self.size = rows, columns
+        self._mesh = self.face.uv_mesh(rows, columns)
+        self._sampler = sampler(
+            face.curves.shape, self._mesh, face.a, face.modes, "smooth", face.has_lids
+        )
+
+    @cached_property
+    def parts(self) -> Mapping[str, Part]:
+        """The parts behind the openings, by name; none if the mesh has no openings."""
+        if not self._mesh.cuts or not has_parts(self.face):
+            return {}
+        return {name: part_on_mesh(p, self.size[0]) for name, p in FaceParts.parts.items()}
+
+    @property
+    def counts(self) -> list[int]:
+        """Vertices of the skin, of each part, and of the curves."""
+        parts = [part.rows * part.columns for part in self.parts.values()]
+        return [self._mesh.vertex_count, *parts, len(self.face.curves.points.reshape(-1, 3))]
+
+    def glb(self) -> bytes:
+        """The face without weights as a user exports it, without morph targets."""
+        with TemporaryDirectory(prefix="pdeface-") as folder:
+            path = Path(folder) / "face.glb"
+            export(self.face, path, mesh=self.size, expressions=())
+            return path.read_bytes()
+
+    def exact(self, weights: Mapping[str, float], normals: bool = False) -> tuple[Float32, Float32]:
+        """(V, 3) positions of all vertices at these weights; (W, 3) normals of all but curves'."""
+        face = self.face.with_weights(weights)
+        moved = face.displacement
+        rest = face.curves.points + moved.smooth
+        points = self._layers(rest, moved.parting)
+        skin = self._sampler.positions(points)
+        shading = [self._sampler.normals(points)] if normals else []
+        behind, anatomy = [], FaceParts(face) if self.parts else None
+        for name, part in self.parts.items():
+            assert anatomy is not None
+            curves = anatomy.curves(name)
+            behind.append(part.positions(curves))
+            if normals:
+                shading.append(part.normals(curves))
+        listed = [skin, *behind, (rest + moved.parting).reshape(-1, 3)]
+        flat = np.concatenate(shading) if normals else np.zeros((0, 3))
+        return np.concatenate(listed).astype(np.float32), flat.astype(np.float32)
+
+    def columns(self) -> dict[str, NDArray[np.floating]]:
+        """What each control adds at 1, in the order of :data:`pdeface.controls.CONTROLS`.
+
+        Returns:
+            ``skin`` (C, V, 3); ``curves`` (C, P, 3); ``shifts`` (C, parts, 3), by which a part
+            moves as a whole with who the face is, about; and ``part:control`` (W, 3) for each
+            part, by number, that an expression moves, exactly.
+        """
+        moved = [self._alone(name) for name in CONTROLS]
+        arrays: dict[str, NDArray[np.floating]] = {
+            "skin": self._skin_columns(moved),
+            "curves": np.array(
+                [(m.smooth + m.parting).reshape(-1, 3) for m in moved], dtype=np.float32
+            ),
+            "shifts": np.zeros((len(moved), len(self.parts), 3), np.float32),
+        }
+        if self.parts:
+            anatomy = FaceParts(self.face)
+            for index, (control, by) in enumerate(zip(CONTROLS.values(), moved, strict=True)):
+                if control.kind == "expression":
+                    arrays |= self._part_columns(anatomy, index, control.name, by)
+                else:
+                    arrays["shifts"][index] = self._shifts(anatomy, by)
+        return arrays
+
+    def response(self, row: int, column: int) -> tuple[Float32, Float32]:
+        """What one metre of a data point adds to the skin: (V, 3) weights of x, y and z.
+
+        x and y of the mirrored back go with the front's, z goes against it, so that z has weights
+        of its own. The second array are the like of the curves' data points.
+        """
+        curves, points = self.face.curves.shape
+        if not (0 <= row < curves and 0 <= column < points // 2):
+            raise InputError(
+                f"a data point has a curve of 0 to {curves - 1} and a place of 0 to "
+                f"{points // 2 - 1}, got {row} and {column}; choose one of these"
+            )
+        by = np.zeros((curves, points, 3))
+        by[row, column] = 1.0
+        by[row, points - 1 - column] = 1.0, 1.0, -1.0
+        skin = self._sampler.positions(self._layers(by, np.zeros_like(by)))
+        return skin.astype(np.float32), by.reshape(-1, 3).astype(np.float32)
+
+    def _layers(self, smooth: FloatArray, parting: FloatArray) -> FloatArray:
+        return np.concatenate([smooth, parting], axis=-3) if self.face.has_lids else smooth
+
+    def _alone(self, name: str) -> Displacement:
+        """What a control adds to the curves at 1, among those without which it does nothing."""
+        shape = self.face.curves.shape
+        if CONTROLS[name].kind != "expression":
+            return displacement({name: 1.0}, shape)
+        if not self.face.has_lids:
+            return Displacement(np.zeros((*shape, 3)), np.zeros((*shape, 3)))
+        rest, options = self.face.curves.points, (self.face.a, self.face.modes)
+        company = COMPANY.get(name, {})
+        before = expressed(rest, company, *options)
+        after = expressed(rest, {**company, name: 1.0}, *options)
+        return Displacement(after.smooth - before.smooth, after.parting - before.parting)
+
+    def _skin_columns(self, moved: Sequence[Displacement]) -> Float32:
+        columns = np.empty((len(moved), self._mesh.vertex_count, 3), np.float32)
+        for start in range(0, len(moved), _BATCH):
+            some = moved[start : start + _BATCH]
+            points = np.array([self._layers(m.smooth, m.parting) for m in some])
+            columns[start : start + _BATCH] = self._sampler.positions(points)
+        return columns
+
+    def _part_columns(
+        self, anatomy: FaceParts, index: int, name: str, by: Displacement
+    ) -> dict[str, NDArray[np.floating]]:
+        outline = anatomy.outline(by)
+        found = {}
+        for number, (part_name, part) in enumerate(self.parts.items()):
+            moved = anatomy.moved(part_name, outline, {name: 1.0})
+            if np.abs(moved).max() > 1e-6:
+                found[f"{number}:{index}"] = part.positions(moved).astype(np.float32)
+        return found
+
+    def _shifts(self, anatomy: FaceParts, by: Displacement) -> FloatArray:
+        """(parts, 3) mean displacement of the opening before each part."""
+        outline = anatomy.outline(by)
+        of = {"right": outline.right_eye, "left": outline.left_eye}
+        sides = [of.get(name.split("_")[0], outline.mouth) for name in self.parts]
+        return np.array([np.mean([margins.upper, margins.lower], axis=(0, 1)) for margins in sides])

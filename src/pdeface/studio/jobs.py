@@ -1,0 +1,94 @@
+"""Work that takes seconds: done in threads of its own, told of over one websocket."""
+
+from __future__ import annotations
+
+import asyncio
+import dataclasses
+import secrets
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+from starlette.routing import BaseRoute, WebSocketRoute
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from pdeface.errors import PDEFaceError
+from pdeface.studio.schema import FaceInfo, JobInfo, PhotoInfo
+
+__all__ = ["Jobs", "Result", "Tell", "job_routes"]
+
+Tell = Callable[[str], None]
+Result = tuple[FaceInfo | None, PhotoInfo | None]
+
+_KEPT = 64
+
+
+class Jobs:
+    """Jobs one after the other, and who wants to hear of them."""
+
+    def __init__(self) -> None:
+        self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="pdeface-job")
+        self._lock = threading.Lock()
+        self._infos: dict[str, JobInfo] = {}
+        self._listeners: dict[asyncio.Queue[JobInfo], asyncio.AbstractEventLoop] = {}
+
+    def start(self, message: str, work: Callable[[Tell], Result]) -> JobInfo:
+        """Begin a job as soon as the one before is done.
+
+        Args:
+            message: what it does, for the page.
+            work: does it; is given a function that tells of its progress.
+        """
+        info = JobInfo(secrets.token_hex(8), "running", message, None, None)
+        self._tell(info)
+        self._pool.submit(self._run, info, work)
+        return info
+
+    def _run(self, info: JobInfo, work: Callable[[Tell], Result]) -> None:
+        try:
+            face, photo = work(lambda text: self._tell(dataclasses.replace(info, message=text)))
+            self._tell(dataclasses.replace(info, state="done", face=face, photo=photo))
+        except Exception as error:  # whatever it is, the page must not wait for ever
+            known = isinstance(error, PDEFaceError)
+            text = str(error) if known else f"unexpected {type(error).__name__}: {error}"
+            message = " ".join(text.split())
+            self._tell(dataclasses.replace(info, state="failed", message=message))
+
+    def _tell(self, info: JobInfo) -> None:
+        with self._lock:
+            self._infos[info.id] = info
+            while len(self._infos) > _KEPT:
+                del self._infos[next(iter(self._infos))]
+            listeners = list(self._listeners.items())
+        for queue, loop in listeners:
+            loop.call_soon_threadsafe(queue.put_nowait, info)
+
+    async def listen(self, websocket: WebSocket) -> None:
+        """Tell one page of every job, the latest first of all."""
+        await websocket.accept()
+        queue: asyncio.Queue[JobInfo] = asyncio.Queue()
+        with self._lock:
+            # A page that lost its connection hears what became of its job meanwhile.
+            for info in self._infos.values():
+                queue.put_nowait(info)
+            self._listeners[queue] = asyncio.get_running_loop()
+        sender = asyncio.create_task(_send(websocket, queue))
+        try:
+            while True:
+                await websocket.receive_text()
+        except WebSocketDisconnect:
+            pass
+        finally:
+            with self._lock:
+                del self._listeners[queue]
+            sender.cancel()
+
+
+async def _send(websocket: WebSocket, queue: asyncio.Queue[JobInfo]) -> None:
+    while True:
+        await websocket.send_json(dataclasses.asdict(await queue.get()))
+
+
+def job_routes(jobs: Jobs) -> list[BaseRoute]:
+    """The websocket."""
+    return [WebSocketRoute("/api/jobs", jobs.listen)]

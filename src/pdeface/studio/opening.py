@@ -1,0 +1,121 @@
+"""Files that the page sends: what each is, by its content, and what is made of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import BaseRoute, Route
+
+from pdeface.errors import InputError
+from pdeface.face import Face, load
+from pdeface.motion import Track, clip, read
+from pdeface.studio.jobs import Jobs
+from pdeface.studio.photos import PhotoDesk
+from pdeface.studio.requests import answered, as_json, body
+from pdeface.studio.schema import ClipInfo, Opened
+from pdeface.studio.store import FaceStore
+
+__all__ = ["open_routes", "opened_face"]
+
+_MOST_FRAMES = 36_000
+_FPS = 60.0
+
+
+def kind_of(data: bytes) -> str:
+    """``"face"``, ``"photo"`` or ``"motion"``, by the first bytes.
+
+    Raises:
+        InputError: none of them.
+    """
+    if data.startswith(b"PK\x03\x04"):
+        return "face"
+    if data.startswith((b"\xff\xd8\xff", b"\x89PNG\r\n\x1a\n")):
+        return "photo"
+    if b"timecode" in data[:1024].lower() or data.lstrip()[:1] == b"{":
+        return "motion"
+    raise InputError(
+        "expected a .pdeface file, a photo (JPEG or PNG) or a Live Link Face CSV, got something "
+        "else; choose one of these"
+    )
+
+
+def opened_face(data: bytes) -> Face:
+    """The face in the bytes of a ``.pdeface`` file.
+
+    Raises:
+        FileFormatError: the file is damaged or something else.
+    """
+    with TemporaryDirectory(prefix="pdeface-") as folder:
+        path = Path(folder) / "face.pdeface"
+        path.write_bytes(data)
+        return load(path)
+
+
+def opened_motion(data: bytes) -> ClipInfo:
+    """The track in the bytes of a motion file, at up to 60 frames a second.
+
+    Raises:
+        FileFormatError: the file is damaged or something else.
+    """
+    with TemporaryDirectory(prefix="pdeface-") as folder:
+        suffix = ".json" if data.lstrip()[:1] == b"{" else ".csv"
+        path = Path(folder) / f"motion{suffix}"
+        path.write_bytes(data)
+        return clip_info("recording", read(path, clamp=True))
+
+
+def clip_info(name: str, track: Track) -> ClipInfo:
+    """A track as the page plays it."""
+    if track.fps is not None and track.fps > _FPS:
+        track = track.resampled(_FPS)
+    if len(track) > _MOST_FRAMES:
+        raise InputError(
+            f"the studio plays {_MOST_FRAMES:,} frames at most, got {len(track):,}; cut it first"
+        )
+    start = float(track.times[0])
+    return ClipInfo(
+        name,
+        [round(float(t) - start, 5) for t in track.times],
+        list(track.names),
+        track.weights.round(5).tolist(),
+        track.head.round(6).tolist(),
+        list(track.notes),
+    )
+
+
+class OpenRoutes:
+    """The endpoints that take files, and clips by name."""
+
+    def __init__(self, store: FaceStore, photos: PhotoDesk, jobs: Jobs) -> None:
+        self._store, self._photos, self._jobs = store, photos, jobs
+
+    async def open(self, request: Request) -> Response:
+        """Whatever file it is."""
+        data = await body(request)
+        kind = kind_of(data)
+        if kind == "face":
+            info = self._store.put(await run_in_threadpool(opened_face, data))
+            return as_json(Opened(info, None, None))
+        if kind == "motion":
+            return as_json(Opened(None, await run_in_threadpool(opened_motion, data), None))
+        job = self._jobs.start("reading the photo", lambda tell: self._photos.opened(data, tell))
+        return as_json(Opened(None, None, job))
+
+    async def clip(self, request: Request) -> Response:
+        """A built-in clip."""
+        name = request.path_params["name"]
+        return as_json(clip_info(name, await run_in_threadpool(clip, name)))
+
+
+def open_routes(store: FaceStore, photos: PhotoDesk, jobs: Jobs) -> list[BaseRoute]:
+    """The routes of files and clips."""
+    routes = OpenRoutes(store, photos, jobs)
+    return [
+        Route("/api/open", answered(routes.open), methods=["POST"]),
+        Route("/api/clips/{name}", answered(routes.clip)),
+    ]
+
