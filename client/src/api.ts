@@ -7,6 +7,8 @@ export interface Size {
   readonly rows: number;
   readonly columns: number;
 }
+// A curve, a point on its front half, and the share of a move that it makes.
+export type Handle = readonly [number, number, number];
 export interface Packet {
   readonly header: Record<string, unknown>;
   readonly arrays: Map<string, Float32Array | Int32Array>;
@@ -68,8 +70,10 @@ export const api = {
   columns: (id: string, size: Size) => packet(ask(`${face(id)}/columns?${query(size)}`)),
   evaluate: (id: string, size: Size, states: readonly Weights[]) =>
     packet(post(`${face(id)}/evaluate`, { ...size, states })),
-  response: (id: string, size: Size, curve: number, point: number) =>
-    packet(post(`${face(id)}/response`, { ...size, curve, point })),
+  response: (id: string, size: Size, handles: readonly Handle[], symmetric: boolean) =>
+    packet(post(`${face(id)}/response`, { ...size, handles, symmetric })),
+  residuals: (id: string, size: Size, weights: Weights, frames: readonly Weights[]) =>
+    packet(post(`${face(id)}/residuals`, { ...size, weights, frames })),
   edit: (id: string, moves: readonly (readonly number[])[]) =>
     json<FaceInfo>(post(`${face(id)}/edit`, { moves })),
   save: async (id: string, name: string, weights: Weights) =>

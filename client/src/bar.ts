@@ -10,6 +10,7 @@ export interface Commands {
   readonly exports: () => void;
   readonly photo: () => void;
   readonly motion: () => void;
+  readonly sculpt: () => void;
   readonly theme: () => void;
   readonly help: () => void;
 }
@@ -43,7 +44,8 @@ export class Bar {
       h("div", { class: "cluster" },
         tool("open", "Open a photo, a face or a motion (Ctrl+O)", commands.open, "Open"),
         tool("photo", "Photo and its points", commands.photo, "Photo"),
-        tool("motion", "Motion", commands.motion, "Motion"),
+        tool("motion", "Motion (Space)", commands.motion, "Motion"),
+        tool("curves", "Drag points of the boundary curves (D)", commands.sculpt, "Sculpt"),
         tool("save", "Save as .pdeface (Ctrl+S)", commands.save, "Save"),
         tool("export", "Export (Ctrl+E)", commands.exports, "Export")),
       h("div", { class: "cluster" },

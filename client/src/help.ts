@@ -2,7 +2,7 @@
 
 import { dialog } from "./dialogs";
 import { h } from "./dom";
-import type { Shortcut } from "./keys";
+import { keysOf, type Shortcut } from "./keys";
 
 const NAMES: Record<string, string> = {
   ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", " ": "Space",
@@ -10,7 +10,7 @@ const NAMES: Record<string, string> = {
 
 export function help(shortcuts: readonly Shortcut[]): void {
   const key = (keys: string) =>
-    keys.split(" ").filter(Boolean).map((one) => h("kbd", {}, one.split("+").map((k) => NAMES[k] ?? k.toUpperCase().replace("CTRL", "Ctrl").replace("SHIFT", "Shift")).join(" ")));
+    keysOf(keys).map((one) => h("kbd", {}, one.split("+").map((k) => NAMES[k] ?? k.toUpperCase().replace("CTRL", "Ctrl").replace("SHIFT", "Shift")).join(" ")));
   const rows = shortcuts.map(({ keys, what }) => h("div", {}, h("span", {}, what), h("span", {}, ...key(keys))));
   dialog("Help", "help",
     h("p", {}, "Drag to turn the face, wheel or pinch to zoom, drag with the right button or two fingers to move it. Sliders on the right shape it; double-click one to reset it. Drop a photo, a .pdeface file or a Live Link Face CSV anywhere."),

@@ -23,9 +23,14 @@ function isTaken(event: KeyboardEvent): boolean {
   return target.matches("input, select, textarea");
 }
 
+// Several keys are parted by spaces; a space alone is the space bar.
+export function keysOf(keys: string): string[] {
+  return keys === " " ? [" "] : keys.split(" ");
+}
+
 export function listen(shortcuts: readonly Shortcut[]): void {
   const table = new Map<string, Shortcut>();
-  for (const shortcut of shortcuts) for (const key of shortcut.keys.split(" ")) table.set(key, shortcut);
+  for (const shortcut of shortcuts) for (const key of keysOf(shortcut.keys)) table.set(key, shortcut);
   document.addEventListener("keydown", (event) => {
     const shortcut = table.get(pressed(event));
     if (!shortcut || isTaken(event)) return;

@@ -5,9 +5,16 @@ import { Bar } from "./bar";
 import { Timeline, type Step } from "./document";
 import { download, fileName } from "./dialogs";
 import { settled } from "./dom";
+import { exportDialog } from "./exports";
+import { Files } from "./files";
+import { Handles } from "./handles";
 import { help } from "./help";
+import { Jobs } from "./jobs";
 import { listen, type Shortcut } from "./keys";
+import { Motion } from "./motion";
 import { Panel } from "./panel";
+import { photoDialog } from "./photo";
+import type { PhotoInfo } from "./schema";
 import { keepSession, lastSession, ownSession, type Session } from "./storage";
 import { Studio } from "./studio";
 import { setTheme, theme } from "./theme";
@@ -35,15 +42,28 @@ async function start(): Promise<void> {
     if (viewer.display) viewer.display.theme = theme();
     viewer.draw();
   };
-  const save = async () => {
-    const { face, name, weights } = timeline.doc;
+  const jobs = new Jobs();
+  const motion = new Motion(studio, stage);
+  const handles = new Handles(studio, stage);
+  let photo: PhotoInfo | null = null;
+  const showPhoto = async () => {
     try {
-      download(await api.save(face, name, weights), fileName(name, ".pdeface"));
+      photo ??= await api.bundledPhoto();
+      photoDialog(studio, photo);
     } catch (error) {
       toast(error);
     }
   };
-  const nothing = () => toast("not yet");
+  const files = new Files(studio, jobs, stage, (clip) => void motion.show(clip), (found) => {
+    photo = found;
+  });
+  const save = async () => {
+    try {
+      download(await studio.saved(), fileName(timeline.doc.name, ".pdeface"));
+    } catch (error) {
+      toast(error);
+    }
+  };
   const shortcuts: Shortcut[] = [
     { keys: "1", what: "From the front", act: () => viewer.look("front") },
     { keys: "2", what: "Three-quarter", act: () => viewer.look("threeQuarter") },
@@ -64,12 +84,17 @@ async function start(): Promise<void> {
     { keys: "/", what: "Search controls", act: () => panel.focusSearch() },
     { keys: "Ctrl+z", what: "Undo", act: () => timeline.undo() },
     { keys: "Ctrl+Shift+z Ctrl+y", what: "Redo", act: () => timeline.redo() },
+    { keys: "d", what: "Drag the curves", act: () => handles.toggle() },
+    { keys: " ", what: "Play or pause motion", act: () => motion.toggle() },
+    { keys: "Ctrl+o", what: "Open", act: () => files.choose() },
     { keys: "Ctrl+s", what: "Save", act: () => void save() },
+    { keys: "Ctrl+e", what: "Export", act: () => exportDialog(studio) },
     { keys: "l", what: "Light or dark", act: switchTheme },
     { keys: "?", what: "This help", act: () => help(shortcuts) },
   ];
   new Bar(studio, document.getElementById("bar")!, {
-    open: nothing, save: () => void save(), exports: nothing, photo: nothing, motion: nothing,
+    open: () => files.choose(), save: () => void save(), exports: () => exportDialog(studio),
+    photo: () => void showPhoto(), motion: () => void motion.show(), sculpt: () => handles.toggle(),
     theme: switchTheme, help: () => help(shortcuts),
   });
   listen(shortcuts);
@@ -78,7 +103,7 @@ async function start(): Promise<void> {
   studio.addEventListener("shown", dress);
   if (own) toast("Your work was recovered.");
   else if (left && worthIt(left)) offer(left, timeline);
-  Object.assign(window, { studio, viewer });
+  Object.assign(window, { studio, viewer, motion, handles, files, api });
   await studio.load();
   await studio.keepCurrent();
   keep();

@@ -44,12 +44,12 @@ export interface Schema {
   readonly formats: readonly (string)[];
 }
 
-/** A face that the server knows: its curves and texture by ``id``, and what it was set to. */
+/** A face that the server knows: its curves and texture by ``id``, and what it was set to. ``texture`` differs with the texture, and is empty without one. */
 export interface FaceInfo {
   readonly id: string;
   readonly name: string;
   readonly weights: Readonly<Record<string, number>>;
-  readonly textured: boolean;
+  readonly texture: string;
   readonly curves: number;
   readonly points: number;
 }

@@ -1,11 +1,11 @@
 // The studio's state in one place: schema, timeline, the face on the stage, and what keeps the
 // server and the page of one mind.
 
-import { api, UnknownFace, type Size, type Weights } from "./api";
+import { api, UnknownFace, type Packet, type Size, type Weights } from "./api";
 import { Timeline, withWeights, type Doc } from "./document";
 import { settled } from "./dom";
 import { Head } from "./head";
-import type { FaceInfo, Schema } from "./schema";
+import type { ExportRequest, FaceInfo, Schema } from "./schema";
 import { keepFace, keptFace } from "./storage";
 import { toast } from "./toast";
 import type { Viewer } from "./viewer";
@@ -16,7 +16,12 @@ export class Studio extends EventTarget {
   size: Size;
   symmetric = true;
   info!: FaceInfo;
+  // A motion moves the face: the document's own expressions wait.
+  performing = false;
+  // A handle is held: what the server says of the face without it would be a step back.
+  holding = false;
   #shown = "";
+  #infos = new Map<string, FaceInfo>();
   #loading = 0;
   #asking = false;
   #askAgain = false;
@@ -58,7 +63,7 @@ export class Studio extends EventTarget {
 
   // Put a face on the stage that the server has just made or opened.
   async adopt(info: FaceInfo, label: string, weights: Weights = info.weights): Promise<void> {
-    this.info = info;
+    this.#infos.set(info.id, info);
     await this.#keep(info);
     this.timeline.commit(label, { face: info.id, name: info.name, weights });
   }
@@ -106,8 +111,9 @@ export class Studio extends EventTarget {
     try {
       const exact = await this.#retold(() => api.evaluate(face, size, [weights]));
       if (head === this.viewer.head) {
+        if (!this.holding && !this.performing) head.morph.setExtra(null);
         head.anchor(exact, weights);
-        this.#redraw();
+        this.redraw();
         this.dispatchEvent(new Event("exact"));
       }
     } catch (error) {
@@ -137,7 +143,9 @@ export class Studio extends EventTarget {
   }
 
   async #known(face: string): Promise<FaceInfo> {
-    return this.#retold(() => api.known(face));
+    const known = this.#infos.get(face) ?? (await this.#retold(() => api.known(face)));
+    this.#infos.set(face, known);
+    return known;
   }
 
   // The face of the document goes into the browser's storage, to survive the server.
@@ -153,22 +161,57 @@ export class Studio extends EventTarget {
     }
   }
 
-  #follow(): void {
-    if (this.#redraw()) this.#refine();
-    this.dispatchEvent(new Event("live"));
+  // The face as the document says, drawn with the next frame.
+  redraw(): boolean {
+    if (this.timeline.doc.face !== this.#shown) return false;
+    if (!this.performing) this.perform(this.timeline.doc.weights);
+    return true;
   }
 
-  #redraw(): boolean {
-    const { head } = this;
-    if (!head || this.timeline.doc.face !== this.#shown) return false;
-    head.update(this.timeline.doc.weights);
+  // The face at other weights than the document's, as a motion has them.
+  perform(weights: Weights): void {
+    this.head?.update(weights);
     this.viewer.display?.moved();
     this.viewer.draw();
-    return true;
+  }
+
+  // What the sum of columns lacks while a face performs: lids and lips that meet.
+  lacks(weights: Weights, frames: readonly Weights[]): Promise<Packet> {
+    const { face } = this.timeline.doc;
+    return this.#retold(() => api.residuals(face, this.size, weights, frames));
+  }
+
+  exported(request: ExportRequest, face: string): Promise<Blob> {
+    return this.#retold(() => api.export(face, request));
+  }
+
+  saved(): Promise<Blob> {
+    const { face, name, weights } = this.timeline.doc;
+    return this.#retold(() => api.save(face, name, weights));
+  }
+
+  #follow(): void {
+    if (this.redraw()) this.#refine();
+    this.dispatchEvent(new Event("live"));
   }
 
   async #settle(): Promise<void> {
     this.dispatchEvent(new Event("change"));
-    if (this.timeline.doc.face !== this.#shown) await this.load();
+    const { face } = this.timeline.doc;
+    if (face === this.#shown || !this.head) return;
+    try {
+      const next = await this.#known(face);
+      // Other curves alone want no other meshes: the server says where they are now.
+      const alike = next.texture === this.info.texture && next.curves === this.info.curves;
+      if (!alike) {
+        await this.load();
+        return;
+      }
+      this.info = next;
+      this.#shown = face;
+      await this.refine();
+    } catch (error) {
+      toast(error);
+    }
   }
 }

@@ -56,7 +56,9 @@ def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
     parts = FaceParts(targets.face)
     outlines = [parts.outline(moved) for moved in targets.moved]
     for name, part in parts.parts.items():
-        yield _sampled(targets, parts, outlines, part_on_mesh(part, targets.surface.uv_mesh.rows), name)
+        yield _sampled(
+            targets, parts, outlines, part_on_mesh(part, targets.surface.uv_mesh.rows), name
+        )
 
 
 def part_on_mesh(part: Part, face_rows: int) -> Part:

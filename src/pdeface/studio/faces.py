@@ -11,19 +11,20 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Route
 
-from pdeface.curves import mirror_points
 from pdeface.errors import InputError
 from pdeface.face import Face
+from pdeface.studio.moves import with_moves
 from pdeface.studio.packets import pack_arrays
 from pdeface.studio.requests import answered, as_json, json_body, mesh_size, weights_of
 from pdeface.studio.saving import exported, saved
 from pdeface.studio.schema import FaceInfo, schema
-from pdeface.studio.store import FaceStore
+from pdeface.studio.store import FaceStore, describe
 
 __all__ = ["face_routes"]
 
 _BYTES = "application/octet-stream"
 _MOST_STATES = 32
+_MOST_FRAMES = 1200
 _SECONDS_OF_CACHE = "private, max-age=86400, immutable"
 
 
@@ -43,8 +44,6 @@ class FaceRoutes:
 
     async def known(self, request: Request) -> Response:
         """What the server knows of a face."""
-        from pdeface.studio.store import describe
-
         return as_json(describe(self._store.get(request.path_params["id"])))
 
     async def model(self, request: Request) -> Response:
@@ -80,19 +79,35 @@ class FaceRoutes:
         return Response(await run_in_threadpool(made), media_type=_BYTES)
 
     async def response(self, request: Request) -> Response:
-        """What a metre of one data point adds to the skin and to the curves."""
+        """What a metre of some handles together adds to the skin and to the curves."""
         value = await json_body(request)
         geometry = self._store.geometry(request.path_params["id"], *mesh_size(value))
-        place = _whole(value, "curve"), _whole(value, "point")
-        skin, curves = await run_in_threadpool(geometry.response, *place)
+        handles, symmetric = value.get("handles"), bool(value.get("symmetric"))
+        if not isinstance(handles, list) or not all(
+            isinstance(handle, list) and len(handle) == 3 for handle in handles
+        ):
+            raise InputError("handles are a list of (curve, point, share); reload the page")
+        skin, curves = await run_in_threadpool(geometry.response, handles, symmetric)
         return Response(pack_arrays({"skin": skin, "curves": curves}), media_type=_BYTES)
 
     async def edit(self, request: Request) -> Response:
-        """The face with data points of the front moved: a face of its own."""
+        """The face with handles of its curves moved: a face of its own."""
         value = await json_body(request)
         face = self._store.get(request.path_params["id"])
-        moved = await run_in_threadpool(_moved, face, value.get("moves"))
-        return as_json(self._store.put(moved))
+        return as_json(
+            self._store.put(await run_in_threadpool(with_moves, face, value.get("moves")))
+        )
+
+    async def residuals(self, request: Request) -> Response:
+        """What the page's sum of columns lacks in the frames of a motion."""
+        value = await json_body(request)
+        frames = value.get("frames")
+        if not isinstance(frames, list) or not 1 <= len(frames) <= _MOST_FRAMES:
+            raise InputError(f"frames are 1 to {_MOST_FRAMES} sets of weights; reload the page")
+        start, states = weights_of(value.get("weights")), [weights_of(frame) for frame in frames]
+        geometry = self._store.geometry(request.path_params["id"], *mesh_size(value))
+        found = await run_in_threadpool(geometry.residuals, start, states)
+        return Response(pack_arrays(found), media_type=_BYTES)
 
     async def save(self, request: Request) -> Response:
         """The face with these weights as a ``.pdeface`` file."""
@@ -120,32 +135,6 @@ class FaceRoutes:
         return bare.with_weights(weights).with_name(name)
 
 
-def _moved(face: Face, moves: Any) -> Face:
-    """The face with data points of its front halves displaced, and the back with them."""
-    curves, points = face.curves.shape
-    by = np.zeros((curves, points // 2, 3))
-    try:
-        for curve, point, *vector in moves:
-            by[_index(curve, curves), _index(point, points // 2)] += np.array(vector, float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"moves are (curve, point, x, y, z) each ({error}); reload") from error
-    if not np.isfinite(by).all() or np.abs(by).max() > 1.0:
-        raise InputError("data points move by less than a metre; move them less")
-    return face.with_curves(face.curves.displaced(mirror_points(by)))
-
-
-def _index(value: Any, size: int) -> int:
-    if not isinstance(value, int) or not 0 <= value < size:
-        raise ValueError(f"no place {value!r} of {size}")
-    return value
-
-
-def _whole(value: dict[str, Any], key: str) -> int:
-    if not isinstance(value.get(key), int):
-        raise InputError(f"{key} is a whole number, got {value.get(key)!r}; reload the page")
-    return int(value[key])
-
-
 def _cached() -> dict[str, str]:
     # A face is known by its content, so that its model never changes.
     return {"Cache-Control": _SECONDS_OF_CACHE}
@@ -163,6 +152,7 @@ def face_routes(store: FaceStore, first: FaceInfo) -> list[BaseRoute]:
         Route(f"{one}/columns", answered(routes.columns)),
         Route(f"{one}/evaluate", answered(routes.evaluate), methods=["POST"]),
         Route(f"{one}/response", answered(routes.response), methods=["POST"]),
+        Route(f"{one}/residuals", answered(routes.residuals), methods=["POST"]),
         Route(f"{one}/edit", answered(routes.edit), methods=["POST"]),
         Route(f"{one}/save", answered(routes.save), methods=["POST"]),
         Route(f"{one}/export", answered(routes.export), methods=["POST"]),

@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 
 from pdeface.anatomy import Part
 from pdeface.controls import COMPANY, CONTROLS, Displacement, displacement, expressed
+from pdeface.curves import mirror_points
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.formats import export, part_on_mesh
 from pdeface.parts import FaceParts, has_parts
 from pdeface.sampler import sampler
+from pdeface.studio.moves import front_moves
 
 __all__ = ["MOST_VERTICES", "Geometry"]
 
@@ -31,7 +33,9 @@ MOST_VERTICES = 60_000
 """Of the skin, in the page; a file may have more."""
 
 _BATCH = 16
-_SIDES = ("right", "left")
+
+_SEEN = 2e-5
+"""Metres that nobody misses."""
 
 
 class Geometry:
@@ -105,7 +109,7 @@ class Geometry:
             moves as a whole with who the face is, about; and ``part:control`` (W, 3) for each
             part, by number, that an expression moves, exactly.
         """
-        moved = [self._alone(name) for name in CONTROLS]
+        moved = list(self._moved.values())
         arrays: dict[str, NDArray[np.floating]] = {
             "skin": self._skin_columns(moved),
             "curves": np.array(
@@ -114,7 +118,7 @@ class Geometry:
             "shifts": np.zeros((len(moved), len(self.parts), 3), np.float32),
         }
         if self.parts:
-            anatomy = FaceParts(self.face)
+            anatomy = self._anatomy
             for index, (control, by) in enumerate(zip(CONTROLS.values(), moved, strict=True)):
                 if control.kind == "expression":
                     arrays |= self._part_columns(anatomy, index, control.name, by)
@@ -122,23 +126,80 @@ class Geometry:
                     arrays["shifts"][index] = self._shifts(anatomy, by)
         return arrays
 
-    def response(self, row: int, column: int) -> tuple[Float32, Float32]:
-        """What one metre of a data point adds to the skin: (V, 3) weights of x, y and z.
+    def response(
+        self, handles: Sequence[tuple[int, int, float]], symmetric: bool = False
+    ) -> tuple[Float32, Float32]:
+        """What a metre of a handle adds to the vertices, along x, y and z each.
 
-        x and y of the mirrored back go with the front's, z goes against it, so that z has weights
-        of its own. The second array are the like of the curves' data points.
+        x and y of the mirrored back of the curves go with the front's, z goes against it, so that
+        z has a response of its own.
+
+        Args:
+            handles: curve, point on its front half, and the share of the move that it makes.
+            symmetric: whether the other side makes the mirrored move.
+
+        Returns:
+            (V, 3) of the skin and (P, 3) of the curves' data points.
         """
-        curves, points = self.face.curves.shape
-        if not (0 <= row < curves and 0 <= column < points // 2):
-            raise InputError(
-                f"a data point has a curve of 0 to {curves - 1} and a place of 0 to "
-                f"{points // 2 - 1}, got {row} and {column}; choose one of these"
-            )
-        by = np.zeros((curves, points, 3))
-        by[row, column] = 1.0
-        by[row, points - 1 - column] = 1.0, 1.0, -1.0
-        skin = self._sampler.positions(self._layers(by, np.zeros_like(by)))
-        return skin.astype(np.float32), by.reshape(-1, 3).astype(np.float32)
+        by = front_moves([(c, p, w, w, w) for c, p, w in handles], self.face.curves.shape)
+        if symmetric:
+            by = by + by[:, ::-1] * (-1.0, 1.0, 1.0)
+        closed = mirror_points(by)
+        skin = self._sampler.positions(self._layers(closed, np.zeros_like(closed)))
+        return skin.astype(np.float32), closed.reshape(-1, 3).astype(np.float32)
+
+    def residuals(
+        self, weights: Mapping[str, float], frames: Sequence[Mapping[str, float]]
+    ) -> dict[str, NDArray[np.generic]]:
+        """What the sum of the columns lacks in each frame: lids and lips that meet.
+
+        Args:
+            weights: where the page's sum begins: the face is exact there.
+            frames: weights that differ from these in expressions.
+
+        Returns:
+            ``frames`` (F,) that lack something, ``vertices`` (n,) where they do, and ``lacks``
+            (F, n, 3).
+        """
+        lacking = {}
+        for number, frame in enumerate(frames):
+            by = self._lacking(weights, frame)
+            if max(np.abs(by.smooth).max(), np.abs(by.parting).max()) > _SEEN:
+                lacking[number] = self._everywhere(by)
+        values = np.array(list(lacking.values()), np.float32).reshape(-1, sum(self.counts[:-1]), 3)
+        vertices = np.flatnonzero((np.abs(values) > _SEEN).any(axis=(0, 2)))
+        return {
+            "frames": np.array(list(lacking), np.int32),
+            "vertices": vertices.astype(np.int32),
+            "lacks": values[:, vertices],
+        }
+
+    def _lacking(self, start: Mapping[str, float], end: Mapping[str, float]) -> Displacement:
+        before, after = (self.face.with_weights(w).displacement for w in (start, end))
+        smooth, parting = after.smooth - before.smooth, after.parting - before.parting
+        for name in {**start, **end}:
+            change = end.get(name, 0.0) - start.get(name, 0.0)
+            if change:
+                smooth = smooth - change * self._moved[name].smooth
+                parting = parting - change * self._moved[name].parting
+        return Displacement(smooth, parting)
+
+    def _everywhere(self, by: Displacement) -> FloatArray:
+        """(W, 3) displacement of skin and parts."""
+        places = [self._sampler.positions(self._layers(by.smooth, by.parting))]
+        if self.parts:
+            outline = self._anatomy.outline(by)
+            moved = {name: self._anatomy.moved(name, outline, {}) for name in self.parts}
+            places += [part.positions(moved[name]) for name, part in self.parts.items()]
+        return np.concatenate(places)
+
+    @cached_property
+    def _anatomy(self) -> FaceParts:
+        return FaceParts(self.face)
+
+    @cached_property
+    def _moved(self) -> dict[str, Displacement]:
+        return {name: self._alone(name) for name in CONTROLS}
 
     def _layers(self, smooth: FloatArray, parting: FloatArray) -> FloatArray:
         return np.concatenate([smooth, parting], axis=-3) if self.face.has_lids else smooth

@@ -118,4 +118,3 @@ def open_routes(store: FaceStore, photos: PhotoDesk, jobs: Jobs) -> list[BaseRou
         Route("/api/open", answered(routes.open), methods=["POST"]),
         Route("/api/clips/{name}", answered(routes.clip)),
     ]
-

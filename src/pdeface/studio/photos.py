@@ -64,8 +64,15 @@ class PhotoDesk:
             InputError: no picture, too large a one, or no face in it.
             MissingExtraError: MediaPipe is not installed.
         """
-        from pdeface.photo import choose, doubts, feature_points, find_faces, model_file
-        from pdeface.photo import photo_views, textured
+        from pdeface.photo import (
+            choose,
+            doubts,
+            feature_points,
+            find_faces,
+            model_file,
+            photo_views,
+            textured,
+        )
 
         pixels = _pixels(data)
         tell("looking for a face")
@@ -96,7 +103,7 @@ class PhotoDesk:
     def warped(self, key: str, points: Any, size: int) -> Pixels:
         """(size, size, 3) the paper's texture, by five steps, with these points."""
         photo = self._photos.get(key)
-        return uv_texture(photo.pixels, _points(photo.info, points), size).image
+        return uv_texture(photo.pixels, _points(photo.info, points), (size, size)).image
 
     def warped_face(self, face: Face, key: str, points: Any) -> Face:
         """The face with the paper's texture of this photo."""
@@ -105,7 +112,7 @@ class PhotoDesk:
         return face.with_texture(texture)
 
     def _kept(self, pixels: Pixels, points: FeaturePoints | None, notes: list[str]) -> PhotoInfo:
-        places: Mapping[str, Any] = points.points if points else {}
+        places: Mapping[str, Any] = points.positions if points else {}
         info = PhotoInfo(
             secrets.token_hex(8),
             pixels.shape[1],

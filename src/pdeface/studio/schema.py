@@ -87,12 +87,15 @@ class Schema:
 
 @dataclass(frozen=True)
 class FaceInfo:
-    """A face that the server knows: its curves and texture by ``id``, and what it was set to."""
+    """A face that the server knows: its curves and texture by ``id``, and what it was set to.
+
+    ``texture`` differs with the texture, and is empty without one.
+    """
 
     id: str
     name: str
     weights: Mapping[str, float]
-    textured: bool
+    texture: str
     curves: int
     points: int
 

@@ -31,7 +31,12 @@ _FIRST_PORT, _PORTS = 8640, 20
 
 
 def application(
-    face: Face, pages: Path, host: str, port: int, token: str | None = None, model: str | None = None
+    face: Face,
+    pages: Path,
+    host: str,
+    port: int,
+    token: str | None = None,
+    model: str | None = None,
 ) -> Starlette:
     """The studio as an ASGI application.
 

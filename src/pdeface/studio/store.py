@@ -7,6 +7,8 @@ import threading
 from collections import OrderedDict
 from typing import Generic, TypeVar
 
+import numpy as np
+
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.studio.geometry import Geometry
@@ -95,8 +97,15 @@ def face_id(face: Face) -> str:
     """Sixteen digits that differ with the curves, the texture and how they make a surface."""
     digest = hashlib.sha256(face.curves.points.tobytes())
     digest.update(f"{face.curves.mirror_z}/{face.a}/{face.modes}".encode())
-    if face.texture is not None:
-        digest.update(repr(face.texture.shape).encode() + face.texture.tobytes())
+    digest.update(_texture_id(face).encode())
+    return digest.hexdigest()[:16]
+
+
+def _texture_id(face: Face) -> str:
+    if face.texture is None:
+        return ""
+    digest = hashlib.sha256(repr(face.texture.shape).encode())
+    digest.update(np.ascontiguousarray(face.texture).tobytes())
     return digest.hexdigest()[:16]
 
 
@@ -107,7 +116,7 @@ def describe(face: Face) -> FaceInfo:
         face_id(face),
         face.name,
         dict(face.weights),
-        face.texture is not None,
+        _texture_id(face),
         curves,
         points,
     )

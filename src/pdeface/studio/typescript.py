@@ -1,6 +1,6 @@
 """The types of :mod:`pdeface.studio.schema` in TypeScript; ``make client`` writes them.
 
-    python -m pdeface.studio.typescript > client/src/schema.ts
+python -m pdeface.studio.typescript > client/src/schema.ts
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ def _interface(kind: type) -> str:
     hints = typing.get_type_hints(kind)
     lines = [f"  readonly {name}: {_type(hint)};" for name, hint in hints.items()]
     comment = " ".join((kind.__doc__ or "").split())
-    return "\n".join(["", f"/** {comment} */", f"export interface {kind.__name__} {{", *lines, "}\n"])
+    return "\n".join(
+        ["", f"/** {comment} */", f"export interface {kind.__name__} {{", *lines, "}\n"]
+    )
 
 
 def _type(hint: Any) -> str:
