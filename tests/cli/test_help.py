@@ -37,6 +37,7 @@ def test_the_commands_are_those_of_the_readme(root) -> None:
         "paper",
         "points",
         "render",
+        "studio",
     ]
     assert all(f"pdeface {name}" in text for name in NAMES)
 
