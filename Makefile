@@ -1,12 +1,13 @@
 # Every goal does its own set-up, in .venv beside this file; it needs Python 3.11 or newer.
 #   make demo    a textured PDE face from the bundled portrait: out/demo.glb, .pdeface, .png
 #   make test    every check: style, types, direction of imports, tests
+#   make studio  a face by hand, in the browser; make client builds its page alone
 #   make PYTHON=/path/to/python3.12 ...   another Python than the one found
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help demo test lint docs bench paper clean distclean
+.PHONY: help demo test lint docs bench paper client studio clean distclean
 
 # All paths are relative, so that the folder may have any name, spaces included.
 VENV := .venv
@@ -14,6 +15,7 @@ BIN := $(VENV)/bin
 PY := $(BIN)/python
 VALIDATOR := tests/formats/validator
 BROWSER := tests/browser
+PAGE := src/pdeface/studio/static/index.html
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 # An environment holds its own place in its scripts; one that was moved or copied is made anew.
@@ -61,11 +63,24 @@ $(VENV)/chromium.stamp: | $(VENV)/test.stamp
 	    apt-get update -qq && apt-get install -y -qq chromium >/dev/null && touch $@ \
 	        || echo 'note: Chromium could not be installed' >&2; fi
 
+# The page of the studio, built into the package, with the types that Python tells it.
+client/src/schema.ts: src/pdeface/studio/schema.py src/pdeface/studio/typescript.py | $(VENV)/demo.stamp
+	$(PY) -m pdeface.studio.typescript > $@
+
+$(PAGE): client/node_modules/.stamp client/index.html client/vite.config.js client/tsconfig.json \
+    $(shell find client/src -type f)
+	cd client && PATH="$$PATH:$(CURDIR)/$(BIN)" npm run build --silent
+
 # ---- goals ----------------------------------------------------------------------------------
 
 demo: $(VENV)/demo.stamp
 	@mkdir -p out
 	$(BIN)/pdeface make -o out/demo.glb -o out/demo.pdeface -o out/demo.png
+
+client: $(PAGE)
+
+studio: $(VENV)/demo.stamp $(PAGE)
+	$(BIN)/pdeface studio
 
 lint: $(VENV)/test.stamp
 	$(PY) -m ruff check .
@@ -74,7 +89,7 @@ lint: $(VENV)/test.stamp
 	$(BIN)/lint-imports --no-cache
 
 # pytest comes last: its closing line is the last thing printed.
-test: lint $(VALIDATOR)/node_modules/.stamp $(BROWSER)/node_modules/.stamp $(VENV)/chromium.stamp
+test: lint $(PAGE) $(VALIDATOR)/node_modules/.stamp $(BROWSER)/node_modules/.stamp $(VENV)/chromium.stamp
 	PATH="$$PATH:$(CURDIR)/$(BIN)" $(PY) -m pytest $(PYTEST)
 
 docs: $(VENV)/demo.stamp
@@ -91,4 +106,4 @@ clean:
 	find src tests benchmarks examples -name __pycache__ -type d -prune -exec rm -rf {} +
 
 distclean: clean
-	rm -rf $(VENV) $(VALIDATOR)/node_modules $(BROWSER)/node_modules
+	rm -rf $(VENV) $(VALIDATOR)/node_modules $(BROWSER)/node_modules client/node_modules $(dir $(PAGE))

@@ -17,7 +17,7 @@ const FORMATS: readonly Format[] = [
   { suffix: ".glb", label: "GLB", hint: "Engines and viewers, with expressions", mesh: true, targets: true },
   { suffix: ".vrm", label: "VRM", hint: "An avatar, VRM 1.0", mesh: true, targets: true },
   { suffix: ".obj", label: "OBJ", hint: "Modellers, with its texture, as a ZIP", mesh: true },
-  { suffix: ".ply", label: "PLY", hint: "Mesh tools", mesh: true },
+  { suffix: ".ply", label: "PLY", hint: "Mesh tools, with its texture, as a ZIP", mesh: true },
   { suffix: ".stl", label: "STL", hint: "3D printing", mesh: true },
   { suffix: ".pdeface", label: "pdeface", hint: "The curves themselves: 4 kB and a texture" },
   { suffix: ".png", label: "Texture", hint: "The texture, PNG" },

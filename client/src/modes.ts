@@ -88,8 +88,8 @@ export class Display {
     if (kind === "skin") {
       return { curvature: this.#curvature, wireframe: this.#wire, curves: this.#fill }[mode];
     }
-    if (mode === "curvature" || kind === "eye") return this.#clayOf(kind);
-    return this.#hidden;
+    if (mode === "curvature") return this.#clayOf(kind);
+    return kind === "eye" ? this.#fill : this.#hidden;
   }
 
   #clayOf(kind: string): THREE.MeshStandardMaterial {

@@ -18,6 +18,16 @@ export type View = keyof typeof VIEWS;
 const FIELD = 22;
 const TURN = 0.12;
 
+// Whether the processor draws, which smooth edges would slow down threefold.
+function isSoftware(): boolean {
+  const probe = document.createElement("canvas").getContext("webgl2");
+  if (!probe) throw new Error("this browser cannot draw in 3D (WebGL 2); try another, or enable it");
+  const named = probe.getExtension("WEBGL_debug_renderer_info");
+  const name = probe.getParameter(named?.UNMASKED_RENDERER_WEBGL ?? probe.RENDERER) as string;
+  probe.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software/i.test(name);
+}
+
 export class Viewer {
   readonly canvas: HTMLCanvasElement;
   readonly renderer: THREE.WebGLRenderer;
@@ -39,8 +49,9 @@ export class Viewer {
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("aria-label", "The face in 3D: drag to turn, wheel to zoom");
     stage.append(this.canvas);
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true });
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    const antialias = !isSoftware();
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias, alpha: true });
+    this.renderer.setPixelRatio(antialias ? Math.min(2, window.devicePixelRatio) : 1);
     this.renderer.toneMapping = THREE.NeutralToneMapping;
     this.renderer.toneMappingExposure = 1.0;
     this.camera = this.#perspective;

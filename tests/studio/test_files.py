@@ -1,0 +1,163 @@
+"""Files in and out: by content, limited, and readable by the library."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pdeface
+from pdeface.images import encode_png
+from pdeface.motion import clip, write
+from pdeface.studio import requests
+from pdeface.texture import portrait
+
+
+@pytest.fixture
+def sent(client):
+    """The server's answer to a file."""
+    return lambda data: client.post("/api/open", content=data)
+
+
+def saved(visitor, weights, folder: Path) -> pdeface.Face:
+    path = folder / "saved.pdeface"
+    path.write_bytes(visitor.post("save", name="Bea", weights=weights))
+    return pdeface.load(path)
+
+
+def test_a_saved_face_is_the_face(visitor, face, tmp_path) -> None:
+    weights = {"jawOpen": 0.5, "noseWidth": -0.25}
+    found = saved(visitor, weights, tmp_path)
+    assert found.name == "Bea"
+    assert dict(found.weights) == weights
+    assert found.curves == face.curves
+    assert np.array_equal(found.texture, face.texture)
+
+
+def test_a_face_comes_back_as_it_was_saved(visitor, sent, tmp_path) -> None:
+    saved(visitor, {"jawOpen": 0.5}, tmp_path)
+    info = sent((tmp_path / "saved.pdeface").read_bytes()).json()["face"]
+    assert info["id"] == visitor.face["id"]
+    assert info["weights"] == {"jawOpen": 0.5}
+
+
+@pytest.mark.parametrize("suffix", [".glb", ".vrm", ".obj", ".ply", ".stl", ".pdeface", ".png"])
+def test_every_format_is_written(visitor, suffix: str) -> None:
+    data = visitor.post(
+        "export", name="Ada", weights={"noseWidth": 0.5}, format=suffix,
+        expressions=False, visemes=False,
+    )  # fmt: skip
+    starts = {".glb": b"glTF", ".vrm": b"glTF", ".stl": b"pdeface", ".png": b"\x89PNG"}
+    assert data.startswith(starts.get(suffix, b"PK"))
+    beside = {".obj": {".mtl", ".png"}, ".ply": {".png"}}
+    if suffix in beside:
+        names = zipfile.ZipFile(io.BytesIO(data)).namelist()
+        assert {Path(name).suffix for name in names} == {suffix, *beside[suffix]}
+
+
+def test_targets_are_written_as_asked(visitor) -> None:
+    def targets(**asked: bool) -> list[str]:
+        data = visitor.post("export", name="Ada", weights={}, format=".glb", **asked)
+        length = int.from_bytes(data[12:16], "little")
+        mesh = json.loads(data[20 : 20 + length])["meshes"][0]
+        return mesh.get("extras", {}).get("targetNames", [])
+
+    assert targets(expressions=False, visemes=False) == []
+    assert "jawOpen" in targets(expressions=True, visemes=False)
+    assert "viseme_aa" in targets(expressions=False, visemes=True)
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ({"format": ".exe"}, "a face is exported as"),
+        ({"format": "../../x.glb"}, "a face is exported as"),
+        ({"rows": 9000, "columns": 9000}, "use pdeface export"),
+        ({"name": "x" * 999}, "at most 200 letters"),
+        ({"name": 3}, "is a text"),
+    ],
+)
+def test_an_export_that_cannot_be_is_refused(visitor, value, message: str) -> None:
+    whole = {"name": "Ada", "weights": {}, "format": ".obj", **value}
+    assert message in visitor.refused("export", **whole)
+
+
+def test_a_file_is_what_its_content_is(sent) -> None:
+    for data in (b"<html><script>alert(1)</script>", b"MZ\x90", b"GIF89a", b"%PDF-1.7"):
+        answer = sent(data)
+        assert answer.status_code == 422
+        assert "got something else" in answer.json()["error"]
+    assert sent(b"").status_code == 422
+
+
+def test_damaged_files_are_refused_in_a_line(sent) -> None:
+    for data in (b"PK\x03\x04 and so on", b"{ no track", b"Timecode,BlendshapeCount\n1,2,3"):
+        answer = sent(data)
+        assert answer.status_code == 422, answer.text
+        assert "\n" not in answer.json()["error"]
+
+
+def test_too_large_a_file_is_refused_before_it_is_read(sent, monkeypatch) -> None:
+    monkeypatch.setattr(requests.body, "__defaults__", (1000,))
+    answer = sent(b"PK\x03\x04" + bytes(2000))
+    assert answer.status_code == 422
+    assert "make it smaller" in answer.json()["error"]
+
+
+def test_a_recording_is_a_clip(sent, tmp_path) -> None:
+    write(clip("blink", 30), tmp_path / "blink.json")
+    info = sent((tmp_path / "blink.json").read_bytes()).json()["clip"]
+    assert info["times"][-1] == pytest.approx(1.0)
+    closed = np.array(info["weights"])[:, info["names"].index("eyeBlinkLeft")]
+    assert closed.max() == 1.0
+    assert np.shape(info["head"]) == (len(info["times"]), 3)
+
+
+def test_a_built_in_clip_is_told(client) -> None:
+    info = client.get("/api/clips/talk").json()
+    assert info["times"][-1] > 3
+    assert client.get("/api/clips/sing").status_code == 422
+
+
+def test_a_photo_without_a_face_fails_with_a_line(client, sent, shared_data, monkeypatch) -> None:
+    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
+    job = sent(encode_png(np.full((64, 64, 3), 128, np.uint8))).json()["job"]
+    assert "no face was found" in finished(client, job["id"], "failed")["message"]
+
+
+def test_a_photo_becomes_a_face(client, sent, shared_data, monkeypatch) -> None:
+    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
+    job = sent(encode_png(portrait()[0])).json()["job"]
+    done = finished(client, job["id"], "done")
+    assert done["face"]["texture"]
+    assert done["face"]["weights"]
+    assert len(done["photo"]["points"]) >= 25
+    points = {point["name"]: [point["x"], point["y"]] for point in done["photo"]["points"]}
+    path = f"/api/photos/{done['photo']['id']}"
+    assert client.get(path).headers["content-type"].startswith("image/")
+    assert client.post(f"{path}/warp", json={"points": points}).content.startswith(b"\xff\xd8")
+    wrong = {name: [5.0, 5.0] for name in points}
+    assert client.post(f"{path}/warp", json={"points": wrong}).status_code == 422
+    face = {"face": done["face"]["id"], "points": points}
+    warped = client.post(f"{path}/apply", json=face).json()
+    assert warped["texture"] not in ("", done["face"]["texture"])
+
+
+def test_a_picture_of_too_many_pixels_is_refused(client, sent, monkeypatch) -> None:
+    monkeypatch.setattr("pdeface.studio.photos.MOST_PIXELS", 100)
+    job = sent(encode_png(np.zeros((64, 64, 3), np.uint8))).json()["job"]
+    assert "make it smaller" in finished(client, job["id"], "failed")["message"]
+
+
+def finished(client, job: str, state: str) -> dict:
+    """What the websocket tells of a job in the end."""
+    with client.websocket_connect("ws://127.0.0.1:8640/api/jobs") as socket:
+        while True:
+            told = socket.receive_json()
+            if told["id"] == job and told["state"] != "running":
+                assert told["state"] == state, told["message"]
+                return told

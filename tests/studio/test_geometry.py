@@ -1,0 +1,134 @@
+"""What the page adds up is what the library evaluates."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from pdeface.controls import CONTROLS
+from pdeface.motion import clip
+
+NAMES = list(CONTROLS)
+ROWS, COLUMNS = 28, 41
+SKIN = ROWS * COLUMNS
+
+ALIKE = 1e-5
+"""Metres."""
+
+LINEAR = {"noseLength": 0.4, "identity03": 1.2, "jawOpen": 0.5, "mouthSmileLeft": 0.7}
+
+
+@pytest.fixture(scope="module")
+def columns(visitor, unpack):
+    return unpack(visitor.get("columns"))
+
+
+@pytest.fixture(scope="module")
+def at(visitor, unpack):
+    """(V, 3) positions of all vertices at some weights."""
+    return lambda weights: unpack(visitor.post("evaluate", states=[weights]))["positions"][0]
+
+
+def added(columns, weights) -> np.ndarray:
+    """What the page adds to the skin."""
+    return sum(w * columns["skin"][NAMES.index(n)] for n, w in weights.items())
+
+
+def test_evaluation_is_the_library_s(face, visitor, unpack) -> None:
+    weights = {"eyeBlinkLeft": 0.6, "browInnerUp": 0.5, "noseWidth": 0.3}
+    found = unpack(visitor.post("evaluate", states=[weights, {}]))
+    bare = face.with_weights(dict.fromkeys(face.weights, 0.0))
+    mesh = bare.with_weights(weights).mesh(ROWS, COLUMNS)
+    np.testing.assert_allclose(found["positions"][0, :SKIN], mesh.vertices, atol=1e-6)
+    np.testing.assert_allclose(found["normals"][:SKIN], mesh.normals, atol=1e-5)
+    np.testing.assert_allclose(
+        found["positions"][1, :SKIN], bare.mesh(ROWS, COLUMNS).vertices, atol=1e-6
+    )
+
+
+def test_the_sum_of_columns_is_the_evaluation(columns, at) -> None:
+    summed = at({})[:SKIN] + added(columns, LINEAR)
+    np.testing.assert_allclose(summed, at(LINEAR)[:SKIN], atol=ALIKE)
+    assert np.abs(added(columns, LINEAR)).max() > 100 * ALIKE
+
+
+def test_every_control_moves_the_skin_or_the_eyes(columns) -> None:
+    moved = np.abs(columns["skin"]).max(axis=(1, 2)) > ALIKE
+    by_parts = {int(name.split(":")[1]) for name in columns if ":" in name}
+    still = [name for k, name in enumerate(NAMES) if not moved[k] and k not in by_parts]
+    assert still == []
+
+
+def test_curves_move_with_the_skin(columns, at, face) -> None:
+    bare = face.with_weights(dict.fromkeys(face.weights, 0.0))
+    moved = bare.with_weights(LINEAR).moved_curves.points.reshape(-1, 3)
+    summed = at({})[-len(moved) :] + sum(
+        w * columns["curves"][NAMES.index(n)] for n, w in LINEAR.items()
+    )
+    np.testing.assert_allclose(summed, moved, atol=ALIKE)
+
+
+def test_eyes_go_where_their_lids_go(columns, at) -> None:
+    """A shape control takes a part along, about; the evaluation then says where exactly."""
+    k, value = NAMES.index("identity01"), 1.5
+    start = SKIN
+    eye = slice(start, start + 17 * 25)
+    moved = at({"identity01": value})[eye].mean(axis=0) - at({})[eye].mean(axis=0)
+    np.testing.assert_allclose(value * columns["shifts"][k, 0], moved, atol=2e-3)
+
+
+def test_a_handle_s_response_is_what_an_edit_does(visitor, at, unpack) -> None:
+    handles, by = [[20, 8, 1.0], [21, 8, 0.5]], np.array([0.002, -0.003, 0.004])
+    response = unpack(visitor.post("response", handles=handles, symmetric=True))
+    moves = [[c, p, *(w * by)] for c, p, w in handles]
+    moves += [[c, 22 - p, *(w * by * (-1, 1, 1))] for c, p, w in handles]
+    edited = visitor.post("edit", moves=moves)
+    assert edited["id"] != visitor.face["id"]
+    assert edited["texture"] == visitor.face["texture"]
+    path = f"/api/faces/{edited['id']}/evaluate"
+    answer = visitor.client.post(path, json={"rows": ROWS, "columns": COLUMNS, "states": [{}]})
+    exact = unpack(answer.content)["positions"][0, :SKIN]
+    np.testing.assert_allclose(at({})[:SKIN] + response["skin"] * by, exact, atol=ALIKE)
+    assert np.abs(exact - at({})[:SKIN]).max() > 100 * ALIKE
+
+
+def test_lids_meet_while_a_clip_plays(visitor, columns, at, unpack) -> None:
+    """Where several expressions meet, columns and residuals together are the evaluation."""
+    track = clip("look", 20)
+    frames = [dict(zip(track.names, row.tolist(), strict=True)) for row in track.weights]
+    found = unpack(visitor.post("residuals", weights={"eyeWideLeft": 0.8}, frames=[
+        {"eyeWideLeft": 0.8, **frame} for frame in frames
+    ]))  # fmt: skip
+    lacking = found["frames"].tolist()
+    assert lacking
+    worst = lacking[int(np.abs(found["lacks"]).max(axis=(1, 2)).argmax())]
+    weights = {"eyeWideLeft": 0.8, **frames[worst]}
+    start = at({"eyeWideLeft": 0.8})[:SKIN]
+    change = {n: weights[n] - (0.8 if n == "eyeWideLeft" else 0.0) for n in weights}
+    alone = start + added(columns, change)
+    exact = at(weights)[:SKIN]
+    assert np.abs(alone - exact).max() > 1e-4
+    whole = np.zeros((found["vertices"].max(initial=SKIN) + 1, 3))
+    whole[found["vertices"]] = found["lacks"][lacking.index(worst)]
+    np.testing.assert_allclose(alone + whole[:SKIN], exact, atol=3e-5)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("evaluate", {"states": [{"noseLenght": 1}]}, "did you mean noseLength"),
+        ("evaluate", {"states": [{"noseLength": 7}]}, "must lie in"),
+        ("evaluate", {"states": [{"noseLength": "1"}]}, "weights are numbers"),
+        ("evaluate", {"states": []}, "states are 1 to"),
+        ("evaluate", {"states": [{}], "rows": 5000, "columns": 5000}, "export finer meshes"),
+        ("evaluate", {"states": [{}], "rows": "a"}, "whole numbers"),
+        ("response", {"handles": [[99, 0, 1.0]]}, "a curve of 0 to 27"),
+        ("response", {"handles": 3}, "handles are a list"),
+        ("edit", {"moves": [[0, 0, 5.0, 0, 0]]}, "by a metre at most"),
+        ("edit", {"moves": [[0, 0, "x", 0, 0]]}, "three numbers"),
+        ("edit", {"moves": {"a": 1}}, "moves are a list"),
+        ("residuals", {"weights": {}, "frames": []}, "frames are 1 to"),
+    ],
+)
+def test_nonsense_is_refused_in_a_line(visitor, name: str, value, message: str) -> None:
+    assert message in visitor.refused(name, **value)
