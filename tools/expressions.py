@@ -9,8 +9,8 @@ from PIL import Image
 
 import pdeface
 from pdeface.controls import COMPANY, CONTROLS
+from pdeface.photo import portrait_person
 from pdeface.pictures import contact_sheet, render
-from pdeface.texture import portrait, uv_texture
 
 OUT = Path(__file__).resolve().parents[1] / "docs" / "pictures" / "expressions-all.jpg"
 A_ROW = 9
@@ -22,8 +22,7 @@ def main() -> None:
     if len(sys.argv) > 1:
         face = pdeface.load(sys.argv[1])
     else:
-        image, points = portrait()
-        face = pdeface.neutral().with_texture(uv_texture(image, points).image)
+        face, _ = portrait_person()
     names = [c.name for c in CONTROLS.values() if c.kind == "expression"]
     cells = []
     for name in names:

@@ -8,8 +8,8 @@ import numpy as np
 from PIL import Image
 
 import pdeface
+from pdeface.photo import photo_report, portrait_person
 from pdeface.pictures import contact_sheet, demo_sheet, render
-from pdeface.texture import portrait, uv_texture
 
 OUT = Path(__file__).resolve().parents[1] / "docs" / "pictures"
 EXPRESSIONS = {
@@ -29,7 +29,7 @@ def save(pixels: np.ndarray, name: str, width: int) -> None:
     image = Image.fromarray(pixels)
     height = round(image.height * width / image.width)
     image = image.resize((width, height), Image.Resampling.LANCZOS).convert("RGB")
-    image.save(OUT / name, optimize=True)
+    image.save(OUT / name, optimize=True, quality=88)
     print(f"{name}: {(OUT / name).stat().st_size / 1024:.0f} kB")
 
 
@@ -50,11 +50,11 @@ def expressions(face: pdeface.Face) -> np.ndarray:
 
 def main() -> None:
     OUT.mkdir(parents=True, exist_ok=True)
-    image, points = portrait()
-    face = pdeface.neutral().with_texture(uv_texture(image, points).image)
+    face, views = portrait_person()
     save(demo_sheet(face), "demo.png", 1320)
     save(levels(), "levels.png", 1200)
     save(expressions(face), "expressions.png", 1320)
+    save(photo_report(face, views), "report.jpg", 1320)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from pdeface.photo.doubts import doubts
 from pdeface.photo.found import PhotoFace, choose
 from pdeface.photo.landmarker import find_faces, glances
 from pdeface.photo.model import model_file
-from pdeface.photo.person import TextureWay, photo_views, textured
+from pdeface.photo.person import TextureWay, photo_views, portrait_person, textured
 from pdeface.photo.points import feature_points
 from pdeface.photo.reporting import photo_report
 from pdeface.photo.shape import PhotoShape, fit_shape
@@ -42,6 +42,7 @@ __all__ = [
     "photo_report",
     "photo_views",
     "portrait_face",
+    "portrait_person",
     "projected_texture",
     "textured",
 ]

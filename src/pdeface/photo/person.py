@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from pdeface.errors import InputError
 from pdeface.face import Face
+from pdeface.photo.bundled import portrait_face
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.points import feature_points
 from pdeface.photo.shape import fit_shape
 from pdeface.photo.texturing import PhotoView, projected_texture
-from pdeface.texture import uv_texture
+from pdeface.texture import portrait, uv_texture
 
-__all__ = ["TextureWay", "photo_views", "textured"]
+__all__ = ["TextureWay", "photo_views", "portrait_person", "textured"]
 
 TextureWay = Literal["project", "warp"]
 
@@ -68,3 +69,9 @@ def textured(
         raise InputError("light is divided out of projected textures alone; leave delight out")
     first = views[0]
     return face.with_texture(uv_texture(first.photo, feature_points(first.found)).image)
+
+
+def portrait_person() -> tuple[Face, tuple[PhotoView, ...]]:
+    """The person in the bundled portrait, and what was found in it; needs no model."""
+    views = photo_views([portrait()[0]], [portrait_face()])
+    return textured(views[0].shape.face, views).with_name("portrait"), views
