@@ -116,15 +116,17 @@ class GltfBuilder:
         return self.add("accessors", bufferView=zeros, **described, sparse=sparse)
 
     def _sparse(self, indices: NDArray[Any], values: NDArray[Any]) -> Json:
-        # An offset of 0 goes without saying, but VTK wants it said.
+        """Values, and after them their indices, in one view: each view costs 60 bytes of text."""
+        view = self.add_view(_bytes(values) + _bytes(indices))
         return {
             "count": len(indices),
             "indices": {
-                "bufferView": self.add_view(_bytes(indices)),
-                "byteOffset": 0,
+                "bufferView": view,
+                "byteOffset": values.nbytes,
                 "componentType": _COMPONENTS[indices.dtype.name],
             },
-            "values": {"bufferView": self.add_view(_bytes(values)), "byteOffset": 0},
+            # An offset of 0 goes without saying, but VTK wants it said.
+            "values": {"bufferView": view, "byteOffset": 0},
         }
 
     def _view_of_zeros(self, count: int) -> int:
@@ -179,6 +181,11 @@ def _described(values: NDArray[Any], bounds: bool) -> Json:
         "componentType": _COMPONENTS[values.dtype.name],
         "count": len(values),
         "type": _SHAPES[values.shape[1:]],
-        "min": np.atleast_1d(values.min(axis=0)).tolist() if bounds else None,
-        "max": np.atleast_1d(values.max(axis=0)).tolist() if bounds else None,
+        "min": _numbers(values.min(axis=0)) if bounds else None,
+        "max": _numbers(values.max(axis=0)) if bounds else None,
     }
+
+
+def _numbers(values: NDArray[Any]) -> list[float]:
+    """Numbers in as few digits as tell them from others of their precision."""
+    return [float(str(value)) for value in np.atleast_1d(values)]

@@ -16,13 +16,15 @@ __all__ = ["PartSample", "part_on_mesh", "sampled_parts"]
 
 Float32 = NDArray[np.float32]
 
-_STILL = 1e-6
+_STILL = 2e-5
 """Metres by which a target must move some curve of a part to be a target of it."""
 
 # A part is sampled as finely as the face is: its own uv mesh goes with a face of so many rows, and
 # below a quarter of that a tooth would be a block.
 _ROWS, _COARSEST = 109, 0.25
 _FEWEST_ROWS, _FEWEST_COLUMNS = 5, 9
+# What goes round an opening has about as many columns as the skin has nodes there.
+_RINGS, _RING = frozenset({"lids", "mouth"}), 0.68
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,9 +65,11 @@ def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
 
 def part_on_mesh(part: Part, face_rows: int) -> Part:
     """The part sampled as finely as a face on a uv mesh of so many rows."""
-    detail = min(1.0, max(_COARSEST, face_rows / _ROWS))
-    rows = max(_FEWEST_ROWS, round(part.rows * detail))
-    return replace(part, rows=rows, columns=max(_FEWEST_COLUMNS, round(part.columns * detail)))
+    detail = max(_COARSEST, face_rows / _ROWS)
+    across = detail * (_RING if part.material in _RINGS else 1.0)
+    rows = max(_FEWEST_ROWS, round(part.rows * min(1.0, detail)))
+    columns = max(_FEWEST_COLUMNS, round(part.columns * min(1.0, across)))
+    return replace(part, rows=rows, columns=columns)
 
 
 def _sampled(

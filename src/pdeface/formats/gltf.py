@@ -36,8 +36,12 @@ PART_ROUGHNESS = {"eye": 0.15, "lids": 0.6, "mouth": 0.5, "teeth": 0.3, "tongue"
 STILL = 1e-6
 """Metres that a vertex may be moved by an expression and be stored as not moved by it."""
 
-UNTURNED = 5e-4
-"""The like for unit normals. It changes shading by an eighth of a grey level of 256 at most."""
+STILL_BEHIND = 5e-5
+"""The like for the rims of the lids, the mouth and all else behind the skin."""
+
+UNTURNED = 3e-3
+"""The like for unit normals. It changes shading by three quarters of a grey level of 256 at most,
+on the few vertices that an expression turns by a sixth of a degree and no more."""
 
 
 def write_glb(
@@ -114,7 +118,7 @@ def add_face(
     morphs: dict[str, Any] = {}
     if targets.names:
         primitive["targets"] = _add_targets(
-            document, targets.differences(), len(targets.surface.vertices)
+            document, targets.differences(), len(targets.surface.vertices), STILL
         )
     primitives = [primitive, *add_parts(document, targets)]
     if targets.names:
@@ -136,7 +140,11 @@ def add_parts(document: GltfBuilder, targets: MorphTargets) -> Iterator[dict[str
         primitive = _add_primitive(document, part, materials[key])
         if targets.names:
             primitive["targets"] = _add_targets(
-                document, part.differences, len(part.vertices), part.material not in MATT
+                document,
+                part.differences,
+                len(part.vertices),
+                STILL_BEHIND,
+                part.material not in MATT,
             )
         yield primitive
 
@@ -182,6 +190,7 @@ def _add_targets(
     document: GltfBuilder,
     differences: Iterable[tuple[NDArray[np.float32], NDArray[np.float32]] | None],
     count: int,
+    still: float,
     normals: bool = True,
 ) -> list[dict[str, int]]:
     """Positions and normals of each target; all targets that move nothing are one accessor."""
@@ -192,7 +201,7 @@ def _add_targets(
             targets.append(nothing)
             continue
         moved, turned = difference or (np.zeros((count, 3), np.float32),) * 2
-        target = {"POSITION": document.add_differences(moved, STILL, bounds=True)}
+        target = {"POSITION": document.add_differences(moved, still, bounds=True)}
         if normals:
             target["NORMAL"] = document.add_differences(turned, UNTURNED)
         targets.append(target)
