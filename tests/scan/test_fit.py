@@ -28,7 +28,7 @@ def test_the_surface_lies_on_the_scan(fitted, level) -> None:
     assert measures.to_scan.median < median
     assert measures.normal < angle
     assert measures.to_face.rms < rms
-    assert measures.coverage > 0.999
+    assert measures.coverage > 0.995  # not all of it: nostrils at a coarse level
 
 
 @pytest.mark.parametrize(

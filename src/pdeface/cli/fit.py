@@ -55,6 +55,10 @@ def fit(
         typer.Option("--report", metavar="PICTURE", help="Picture of scan, fit and how far they "
                      "differ to write, ending in .png."),
     ] = None,
+    rounded: Annotated[
+        bool, typer.Option("--round", help="Fit the curved surface that the triangles of a coarse "
+                           "scan stand for, not their flat faces."),
+    ] = False,
     model: ModelOption = None,
     texture: Annotated[
         bool, typer.Option("--texture/--no-texture", help="Carry the scan's colours over."),
@@ -90,7 +94,15 @@ def fit(
     with report.step(f"reading {scan}"):
         head = read_scan(scan)
     with report.step("fitting") as show:
-        found = fit_scan(head, curves, landmarks=points, units=units, model=model, progress=show)
+        found = fit_scan(
+            head,
+            curves,
+            landmarks=points,
+            units=units,
+            rounded=rounded,
+            model=model,
+            progress=show,
+        )
     if found.unit is None:
         report.warn("the scan's unit is none of m, cm and mm; took its eyes to be 63 mm apart")
     with report.step("measuring the fit"):

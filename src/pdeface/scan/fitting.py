@@ -82,6 +82,7 @@ def fit_scan(
     *,
     landmarks: Landmarks | None = None,
     units: Units | None = None,
+    rounded: bool = False,
     model: PathLike | None = None,
     progress: Progress | None = None,
 ) -> ScanFit:
@@ -93,6 +94,8 @@ def fit_scan(
         landmarks: points of the face on it; None to find them.
         units: of the scan. None for those of m, cm and mm in which its eyes are as far apart as a
             person's, or, if there are none, for such a scale that they are 63 mm apart.
+        rounded: fit the curved surface that a coarse scan's triangles stand for, with whose normals
+            it is shaded, instead of their flat faces.
         model: MediaPipe's model; None for the one that :func:`pdeface.photo.model_file` finds.
         progress: called with a line of text before each step.
 
@@ -113,7 +116,7 @@ def fit_scan(
     moved = outside(scan.moved(alignment.rotation, alignment.scale, alignment.shift))
     own = Landmarks(landmarks.uv, alignment.apply(landmarks.points), landmarks.trust)
     say("laying the face onto the scan")
-    registered = register(moved, own, alignment.weights)
+    registered = register(moved, own, alignment.weights, rounded=rounded)
     if registered.trust.mean() < _MET:
         raise InputError(
             f"only {100 * registered.trust.mean():.0f} per cent of a face lies on the scan; give "

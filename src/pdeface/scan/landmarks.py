@@ -22,8 +22,8 @@ FloatArray = NDArray[np.float64]
 Look = Callable[[NDArray[np.uint8]], list[PhotoFace]]
 Progress = Callable[[str], None]
 
-_SIZE = 448
-_FRONT = 640
+_SIZE = 400
+_FRONT = 560
 _SURE, _POSSIBLE = 3.0e-3, 6.0e-3
 """Distance of the landmarks from a face's, on its own scale, of a find to go on with at once, and
 of one to take if there is none better."""

@@ -49,11 +49,14 @@ _STAGES = (
     Stage(0.5, 4.0e-3, 3, 2),
     Stage(0.28, 3.0e-3, 3, 2),
 )
-_LAST = Stage(0.14, 2.0e-3, 3, 1)
+_LAST = Stage(0.14, 2.0e-3, 2, 1)
 
 _BREADTH = 4.0e-3
 _SLIDE = 0.2
 """Share of the way along the surface that is gone."""
+
+_ROUND = 0.5
+"""Share of the way to the vertices' tangent planes, with which flat triangles become round."""
 
 _MARK = 4.0
 """What a landmark counts, in nodes."""
@@ -63,24 +66,28 @@ _ODD = 1.2e-3
 """Metres that a move may differ from those around it, as into a nostril, before it loses weight."""
 
 
-def lay(start: FloatArray, scan: Scan, landmarks: Landmarks) -> tuple[FloatArray, FloatArray]:
+def lay(
+    start: FloatArray, scan: Scan, landmarks: Landmarks, *, rounded: bool = False
+) -> tuple[FloatArray, FloatArray]:
     """Lay a face onto a scan.
 
     Args:
         start: (U, V, 3) the face on its grid, nearly there.
         scan: its outside, in the frame of the template.
         landmarks: in that frame.
+        rounded: onto the curved surface that its triangles stand for, not onto their flat faces.
 
     Returns:
         (U, V, 3) the grid on the scan, and (U, V) how well it was met, 0 in holes to 1.
     """
     target = Target(scan, _BREADTH)
+    bend = _ROUND if rounded else 0.0
     points, known = start.copy(), _known(*start.shape[:2])
     for stage in _STAGES:
         for _ in range(stage.rounds):
-            points = points + _move(points, stage, target, landmarks, known, _SLIDE)
+            points = points + _move(points, stage, target, landmarks, known, _SLIDE, bend)
     for _ in range(_LAST.rounds):
-        points = points + _move(points, _LAST, target, landmarks, known, 0.0)
+        points = points + _move(points, _LAST, target, landmarks, known, 0.0, bend)
     facing = normals(points).reshape(-1, 3)
     found = target.nearest(points.reshape(-1, 3), facing)
     trust = met(found.away, (found.normals * facing).sum(axis=1), _LAST.cutoff)
@@ -105,6 +112,7 @@ def _move(
     landmarks: Landmarks,
     known: tuple[FloatArray, FloatArray],
     slide: float,
+    bend: float,
 ) -> FloatArray:
     """(U, V, 3) smoothed way to the scan."""
     some = (slice(None, None, stage.step), slice(None, None, stage.step))
@@ -112,7 +120,7 @@ def _move(
     flat, flat_facing = here.reshape(-1, 3), facing.reshape(-1, 3)
     found = target.nearest(flat, flat_facing)
     trust = met(found.away, (found.normals * flat_facing).sum(axis=1), stage.cutoff)
-    off = found.points - flat
+    off = found.bent(target.scan, bend) - flat
     along = off - (off * flat_facing).sum(axis=1, keepdims=True) * flat_facing
     off = (off - (1.0 - slide) * along).reshape(here.shape)
     lips, inner = known

@@ -23,6 +23,9 @@ _ROWS, _COLUMNS = 271, 241
 _HOLE = 5.0e-3
 """Metres from the scan from which on a sample counts as one that the scan does not have."""
 
+_BRIDGE = 0.5e-3, 60.0
+"""Metres and degrees by which a sample over a small hole, as a nostril, differs from its rim."""
+
 
 @dataclass(frozen=True)
 class Spread:
@@ -71,7 +74,8 @@ def measure(fit: ScanFit) -> Measures:
     """Compare the smooth surface of a fit with its scan.
 
     Distances are to the flat triangles of the scan, angles to its vertices' normals, interpolated.
-    Samples 5 mm or further from the scan are holes in it: they count in the coverage alone.
+    Samples 5 mm or further from the scan lie over holes in it, and so do those further than half a
+    millimetre whose nearest place faces elsewhere: over nostrils. They count in the coverage alone.
     """
     curves = fit.face.curves
     u, v = np.linspace(0.0, 1.0, _ROWS), (np.arange(_COLUMNS) + 0.5) * (np.pi / _COLUMNS)
@@ -83,7 +87,7 @@ def measure(fit: ScanFit) -> Measures:
     points = points.reshape(_ROWS, _COLUMNS, 3)
     angle = np.degrees(np.arccos(alike.clip(-1.0, 1.0))).reshape(away.shape)
     front = np.broadcast_to((v > FRONT[0]) & (v < FRONT[1]), away.shape)
-    known = away < _HOLE
+    known = (away < _HOLE) & ~((away > _BRIDGE[0]) & (angle > _BRIDGE[1]))
     to_face = _back(fit.scan, points)
     return Measures(
         Spread.of(away[front & known]),
@@ -104,10 +108,12 @@ def _back(scan: Scan, grid: FloatArray) -> FloatArray:
     a, b, c, d = index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]
     triangles = np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
     face = Scan(grid.reshape(-1, 3), triangles)
-    some = scan.vertices[:: max(1, len(scan.vertices) // 60_000)]
-    found = Target(face).nearest(some)
+    step = max(1, len(scan.vertices) // 60_000)
+    found = Target(face).nearest(scan.vertices[::step])
     column = (found.corners % columns * found.weights).sum(axis=1) / (columns - 1)
     row = (found.corners // columns * found.weights).sum(axis=1) / (rows - 1)
     inside = (column > FRONT[0] / np.pi) & (column < FRONT[1] / np.pi)
     inside &= (row > 0.004) & (row < 0.996) & (found.away < _HOLE)
+    alike = (found.normals * scan.normals[::step]).sum(axis=1)
+    inside &= (found.away < _BRIDGE[0]) | (alike > np.cos(np.radians(_BRIDGE[1])))
     return found.away[inside]

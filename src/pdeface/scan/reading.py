@@ -133,7 +133,9 @@ def _one(trimesh: Any, loaded: Any) -> Any:
     kinds = (trimesh.Trimesh, trimesh.PointCloud)
     parts = [part for part in loaded.dump() if isinstance(part, kinds) and len(part.vertices)]
     if not parts:
-        raise InputError("expected a mesh or points, got a file without any; export it again")
+        raise InputError(
+            "expected a mesh or points, got a file without any, perhaps cut short; export it again"
+        )
     meshes = [part for part in parts if isinstance(part, trimesh.Trimesh) and len(part.faces)]
     if len(meshes) > 1:
         return trimesh.util.concatenate(meshes)

@@ -53,20 +53,24 @@ class Registered:
     trust: FloatArray
 
 
-def register(scan: Scan, landmarks: Landmarks, weights: FloatArray) -> Registered:
+def register(
+    scan: Scan, landmarks: Landmarks, weights: FloatArray, *, rounded: bool = False
+) -> Registered:
     """Lay the face onto a scan.
 
     Args:
         scan: its outside, in the frame of the template as far as landmarks tell.
         landmarks: in that frame.
         weights: first identity.
+        rounded: as for :func:`pdeface.scan.laying.lay`.
     """
     target = Target(scan, _BREADTH)
     rotation, shift, weights = identity(target, landmarks, weights)
     scan = scan.moved(rotation, 1.0, shift)
     points = landmarks.points @ rotation.T + shift
     face = grid(*FINE)
-    laid, trust = lay(face.of(weights), scan, Landmarks(landmarks.uv, points, landmarks.trust))
+    marks = Landmarks(landmarks.uv, points, landmarks.trust)
+    laid, trust = lay(face.of(weights), scan, marks, rounded=rounded)
     return Registered(scan, rotation, shift, weights, laid, trust)
 
 

@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 _VIEWS = ((0, 0), (35, 0), (-35, 0), (70, 0), (-70, 0), (0, 35), (0, -35), (95, 0), (-95, 0))
 """Azimuth and elevation, degrees."""
 
-_PIXELS = 420
+_PIXELS = 320
 _REACH = np.array([0.125, 0.15, 0.13])
 _MIDDLE = np.array([0.0, 0.005, 0.06])
 _BEHIND = 0.8e-3
