@@ -88,8 +88,8 @@ class Geometry:
         moved = face.displacement
         rest = face.curves.points + moved.smooth
         points = self._layers(rest, moved.parting)
-        skin = self._sampler.positions(points)
-        shading = [self._sampler.normals(points)] if normals else []
+        skin = self._sampler.positions(points, moved.margins)
+        shading = [self._sampler.normals(points, moved.margins)] if normals else []
         behind, anatomy = [], FaceParts(face) if self.parts else None
         for name, part in self.parts.items():
             assert anatomy is not None
@@ -164,7 +164,7 @@ class Geometry:
         lacking = {}
         for number, frame in enumerate(frames):
             by = self._lacking(weights, frame)
-            if max(np.abs(by.smooth).max(), np.abs(by.parting).max()) > _SEEN:
+            if max(np.abs(each).max() for each in by) > _SEEN:
                 lacking[number] = self._everywhere(by)
         values = np.array(list(lacking.values()), np.float32).reshape(-1, sum(self.counts[:-1]), 3)
         vertices = np.flatnonzero((np.abs(values) > _SEEN).any(axis=(0, 2)))
@@ -176,17 +176,16 @@ class Geometry:
 
     def _lacking(self, start: Mapping[str, float], end: Mapping[str, float]) -> Displacement:
         before, after = (self.face.with_weights(w).displacement for w in (start, end))
-        smooth, parting = after.smooth - before.smooth, after.parting - before.parting
+        lacking = after.less(before)
         for name in {**start, **end}:
             change = end.get(name, 0.0) - start.get(name, 0.0)
             if change:
-                smooth = smooth - change * self._moved[name].smooth
-                parting = parting - change * self._moved[name].parting
-        return Displacement(smooth, parting)
+                lacking = lacking.less(Displacement(*(change * part for part in self._moved[name])))
+        return lacking
 
     def _everywhere(self, by: Displacement) -> FloatArray:
         """(W, 3) displacement of skin and parts."""
-        places = [self._sampler.positions(self._layers(by.smooth, by.parting))]
+        places = [self._sampler.positions(self._layers(by.smooth, by.parting), by.margins)]
         if self.parts:
             outline = self._anatomy.outline(by)
             moved = {name: self._anatomy.moved(name, outline, {}) for name in self.parts}
@@ -214,15 +213,15 @@ class Geometry:
         rest, options = self.face.curves.points, (self.face.a, self.face.modes)
         company = COMPANY.get(name, {})
         before = expressed(rest, company, *options)
-        after = expressed(rest, {**company, name: 1.0}, *options)
-        return Displacement(after.smooth - before.smooth, after.parting - before.parting)
+        return expressed(rest, {**company, name: 1.0}, *options).less(before)
 
     def _skin_columns(self, moved: Sequence[Displacement]) -> Float32:
         columns = np.empty((len(moved), self._mesh.vertex_count, 3), np.float32)
         for start in range(0, len(moved), _BATCH):
             some = moved[start : start + _BATCH]
             points = np.array([self._layers(m.smooth, m.parting) for m in some])
-            columns[start : start + _BATCH] = self._sampler.positions(points)
+            margins = np.array([m.margins for m in some])
+            columns[start : start + _BATCH] = self._sampler.positions(points, margins)
         return columns
 
     def _part_columns(
