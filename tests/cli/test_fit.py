@@ -62,3 +62,43 @@ def test_bad_input_is_one_line(words, says, files, tmp_path, monkeypatch, pdefac
     assert says in done.err
     assert len(done.err.splitlines()) == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_of_scans_becomes_a_folder_of_faces(
+    files, shared_data: Path, tmp_path: Path, monkeypatch, pdeface_command
+) -> None:
+    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
+    pytest.importorskip("mediapipe", reason="needs the extra 'photo'", exc_type=ImportError)
+    scans, faces = tmp_path / "scans", tmp_path / "faces"
+    scans.mkdir()
+    (scans / "good.ply").write_bytes(files[0].read_bytes())
+    (scans / "short.ply").write_bytes(files[0].read_bytes()[:5000])
+    (scans / "text.txt").write_text("not a scan")
+    done = pdeface_command("fit", scans, "-o", faces, "--jobs", "2", "--level", "28x46")
+    assert done.status == 1
+    assert "1 made, 0 kept, 1 failed" in done.out
+    assert "short.ply" in done.err
+    assert [path.name for path in faces.iterdir()] == ["good.pdeface"]
+    made = (faces / "good.pdeface").stat().st_mtime_ns
+    (scans / "short.ply").unlink()
+    again = pdeface_command("fit", scans, "-o", faces, "--level", "28x46")
+    assert again.status == 0
+    assert "0 made, 1 kept, 0 failed" in again.out
+    assert (faces / "good.pdeface").stat().st_mtime_ns == made
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["FOLDER", "-o", "a.pdeface"], "one folder of faces"),
+        (["FOLDER", "-o", "faces", "--report", "a.png"], "of one scan"),
+        (["FOLDER", "-o", "faces", "--landmarks", "b.json"], "of one scan"),
+        (["FOLDER", "-o", "faces", "--formats", "png"], "--formats takes"),
+        (["EMPTY", "-o", "faces"], "found none"),
+    ],
+)
+def test_folders_that_cannot_be_fitted(words, says, files, tmp_path, pdeface_command) -> None:
+    places = {"FOLDER": files[0].parent, "EMPTY": tmp_path}
+    done = pdeface_command("fit", *(places.get(word, word) for word in words))
+    assert done.status == 2
+    assert says in done.err

@@ -17,9 +17,11 @@ from pdeface.cli.options import (
     parse_mesh,
 )
 from pdeface.cli.report import Report
+from pdeface.cli.scanning import Fitting, fit_file, fit_folder
+from pdeface.errors import InputError
 
 if TYPE_CHECKING:
-    from pdeface.scan import Landmarks, Measures, ScanFit
+    from pdeface.scan import Measures, ScanFit
 
 __all__ = ["fit"]
 
@@ -28,12 +30,13 @@ def fit(
     scan: Annotated[
         Path,
         typer.Argument(metavar="SCAN", help="A head or face: .obj, .ply, .stl, .glb, .gltf or "
-                       ".off; a mesh or a cloud of points."),
+                       ".off; a mesh or a cloud of points. Or a folder of them."),
     ],
     out: Annotated[
         list[Path],
         typer.Option("-o", "--out", metavar="OUT", help="File to write; may be repeated. The "
-                     "suffix picks the format: .pdeface, .glb, .gltf, .vrm, .obj, .ply or .stl."),
+                     "suffix picks the format: .pdeface, .glb, .gltf, .vrm, .obj, .ply or .stl. "
+                     "For a folder of scans, a folder."),
     ],
     level: Annotated[
         str,
@@ -64,6 +67,16 @@ def fit(
         bool, typer.Option("--texture/--no-texture", help="Carry the scan's colours over."),
     ] = True,
     mesh: MeshOption = DEFAULT_MESH,
+    formats: Annotated[
+        str,
+        typer.Option("--formats", metavar="NAME,...", help="For a folder of scans: the files to "
+                     "write for each, by their suffixes."),
+    ] = "pdeface",
+    jobs: Annotated[
+        int,
+        typer.Option("--jobs", metavar="N", min=1, help="For a folder of scans: how many to work "
+                     "on at once."),
+    ] = 1,
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
     """Fit a face to a scan.
@@ -72,51 +85,36 @@ def fit(
     this machine; it is sent nowhere. What comes out is a face like any other: it can be set,
     animated and exported. A coarser level is the best fit at that level.
 
+    A folder of scans makes a folder of faces. One bad scan does not stop the rest (the exit
+    status is then 1), and faces that are newer than their scans are not made again.
+
     \b
     Examples:
       pdeface fit head.ply -o face.pdeface
       pdeface fit head.obj -o face.pdeface --report fit.png
       pdeface fit head.stl --units mm --level 109x184 -o face.glb
       pdeface fit cloud.ply --landmarks points.json -o face.pdeface
+      pdeface fit scans/ -o faces/ --jobs 2
     """
-    size, curves = parse_mesh(mesh), parse_level(level)
-    import pdeface
+    how = Fitting(
+        parse_level(level), units, landmarks, rounded, model, texture, mesh=parse_mesh(mesh)
+    )
     from pdeface.formats import SUFFIXES
     from pdeface.pictures.image_file import FORMATS as PICTURES
-    from pdeface.scan import fit_scan, measure, read_scan, texture_of
     from pdeface.scan.fitting import check_level
 
-    check_level(curves)
-    check_outputs(out, [scan, landmarks, model], SUFFIXES)
-    check_outputs([report_picture] if report_picture else [], [scan, landmarks, model], [*PICTURES])
+    check_level(how.level)
     report = Report(quiet)
-    points = _points(landmarks)
-    with report.step(f"reading {scan}"):
-        head = read_scan(scan)
-    with report.step("fitting") as show:
-        found = fit_scan(
-            head,
-            curves,
-            landmarks=points,
-            units=units,
-            rounded=rounded,
-            model=model,
-            progress=show,
-        )
-    if found.unit is None:
-        report.warn("the scan's unit is none of m, cm and mm; took its eyes to be 63 mm apart")
-    with report.step("measuring the fit"):
-        measures = measure(found)
+    if scan.is_dir():
+        if report_picture is not None:
+            raise InputError("--report is of one scan; leave it out for a folder")
+        fit_folder(scan, out, formats, jobs, how, report)
+        return
+    inputs = [scan, landmarks, model]
+    check_outputs(out, inputs, SUFFIXES)
+    check_outputs([report_picture] if report_picture else [], [*inputs, *out], [*PICTURES])
+    found, measures = fit_file(scan, out, how, report)
     _tell(report, found, measures)
-    face = found.face.with_name(scan.stem)
-    if texture:
-        with report.step("carrying the colours over"):
-            image = texture_of(found)
-            face = face if image is None else face.with_texture(image)
-    for path in out:
-        with report.step(f"writing {path}"):
-            pdeface.export(face, path, mesh=size)
-        report.wrote(path)
     if report_picture is not None:
         from pdeface.scan.report import report_sheet
 
@@ -125,22 +123,14 @@ def fit(
         report.wrote(report_picture)
 
 
-def _points(path: Path | None) -> Landmarks | None:
-    if path is None:
-        return None
-    from pdeface.scan import load_landmarks
-
-    return load_landmarks(path)
-
-
 def _tell(report: Report, found: ScanFit, measures: Measures) -> None:
     """How near the fit is, over the front of the face."""
     there, back = measures.to_scan, measures.to_face
-    report.result(
+    report.say(
         f"fit to scan: RMS {there.rms:.3f} mm, median {there.median:.3f}, 95 % {there.p95:.2f}, "
         f"largest {there.largest:.2f}; normals {measures.normal:.1f} degrees"
     )
-    report.result(
+    report.say(
         f"scan to fit: RMS {back.rms:.3f} mm, median {back.median:.3f}, 95 % {back.p95:.2f}, "
         f"largest {back.largest:.2f}; coverage {100 * measures.coverage:.1f} %"
     )

@@ -90,11 +90,6 @@ class Report:
         if not self._quiet:
             typer.echo(f"warning: {text}", err=True)
 
-    def result(self, text: str) -> None:
-        """Tell, on stdout, what was found out."""
-        if not self._quiet:
-            typer.echo(text)
-
     def wrote(self, *paths: Path) -> None:
         """Tell that a file was written, or all those of a sequence, and how large they are."""
         if self._quiet:
