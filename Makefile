@@ -63,10 +63,7 @@ $(VENV)/chromium.stamp: | $(VENV)/test.stamp
 	    apt-get update -qq && apt-get install -y -qq chromium >/dev/null && touch $@ \
 	        || echo 'note: Chromium could not be installed' >&2; fi
 
-# The page of the studio, built into the package, with the types that Python tells it.
-client/src/schema.ts: src/pdeface/studio/schema.py src/pdeface/studio/typescript.py | $(VENV)/demo.stamp
-	$(PY) -m pdeface.studio.typescript > $@
-
+# The page of the studio, built into the package.
 $(PAGE): client/node_modules/.stamp client/index.html client/vite.config.js client/tsconfig.json \
     $(shell find client/src -type f)
 	cd client && PATH="$$PATH:$(CURDIR)/$(BIN)" npm run build --silent
@@ -94,6 +91,7 @@ test: lint $(PAGE) $(VALIDATOR)/node_modules/.stamp $(BROWSER)/node_modules/.sta
 
 docs: $(VENV)/demo.stamp
 	$(PY) -m pdeface.cli.reference > docs/cli.md
+	$(PY) -m pdeface.studio.typescript > client/src/schema.ts
 
 bench: $(VENV)/test.stamp
 	$(PY) -m benchmarks

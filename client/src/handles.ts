@@ -9,6 +9,26 @@ import { toast } from "./toast";
 const REACH = 11;
 const COLOURS = { rest: new THREE.Color(0x8fb7ff), hover: new THREE.Color(0xffc56b) };
 
+// Round dots, a little nearer than the skin that they lie on; those held are larger.
+const VERTEX = `
+attribute vec3 color;
+uniform float size;
+varying vec3 vColour;
+void main() {
+  vColour = color;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  gl_Position.z -= 0.0006 * gl_Position.w;
+  gl_PointSize = size * (1.0 + 0.6 * smoothstep(0.6, 1.0, color.r));
+}`;
+const FRAGMENT = `
+varying vec3 vColour;
+void main() {
+  float away = length(gl_PointCoord - 0.5);
+  if (away > 0.5) discard;
+  gl_FragColor = vec4(away > 0.34 ? vec3(0.06, 0.08, 0.12) : vColour, 1.0);
+  #include <colorspace_fragment>
+}`;
+
 interface Place {
   readonly curve: number;
   readonly point: number;
@@ -41,14 +61,17 @@ export class Handles {
     canvas.addEventListener("pointerdown", (event) => this.#grab(event), { capture: true });
     canvas.addEventListener("pointerup", () => void this.#drop());
     canvas.addEventListener("pointercancel", () => this.#cancel());
-    const radius = h("input", { type: "range", min: 0, max: 6, step: 0.5, value: 2, id: "falloff", "aria-label": "Falloff" });
+    const radius = h("input", {
+      type: "range", min: 0, max: 6, step: 0.5, value: 2, id: "falloff", "aria-label": "Falloff",
+    });
     const show = () => {
       this.#radius = radius.valueAsNumber;
       radius.style.setProperty("--to", `${(100 * this.#radius) / 6}%`);
       this.studio.viewer.draw();
     };
     radius.addEventListener("input", show);
-    this.#box = h("div", { class: "float sculpt", hidden: true }, h("span", {}, "Drag a point of a curve"), h("label", { for: "falloff" }, "Falloff"), radius);
+    this.#box = h("div", { class: "float sculpt", hidden: true },
+      h("span", {}, "Drag a point of a curve"), h("label", { for: "falloff" }, "Falloff"), radius);
     stage.append(this.#box);
     show();
     studio.addEventListener("shown", () => this.#rebuild());
@@ -106,7 +129,10 @@ export class Handles {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-    const material = new THREE.PointsMaterial({ size: 5, sizeAttenuation: false, vertexColors: true });
+    const size = 7 * this.studio.viewer.renderer.getPixelRatio();
+    const material = new THREE.ShaderMaterial({
+      uniforms: { size: { value: size } }, vertexShader: VERTEX, fragmentShader: FRAGMENT,
+    });
     this.#points = new THREE.Points(geometry, material);
     this.#points.frustumCulled = false;
     head.skin.mesh.add(this.#points);

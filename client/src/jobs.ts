@@ -11,8 +11,9 @@ export class Jobs {
   // A job may be done before its number is known to the page.
   #latest = new Map<string, JobInfo>();
 
-  constructor() {
-    this.#connect();
+  // onBack: the server is there again.
+  constructor(private onBack: () => void) {
+    this.#connect(false);
   }
 
   watch(job: JobInfo, watcher: Watcher): void {
@@ -20,11 +21,12 @@ export class Jobs {
     this.#tell(this.#latest.get(job.id) ?? job);
   }
 
-  #connect(): void {
+  #connect(again: boolean): void {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/api/jobs`);
+    if (again) socket.addEventListener("open", () => this.onBack());
     socket.addEventListener("message", (event) => this.#tell(JSON.parse(event.data as string)));
-    socket.addEventListener("close", () => setTimeout(() => this.#connect(), AGAIN));
+    socket.addEventListener("close", () => setTimeout(() => this.#connect(true), AGAIN));
   }
 
   #tell(job: JobInfo): void {

@@ -42,7 +42,7 @@ async function start(): Promise<void> {
     if (viewer.display) viewer.display.theme = theme();
     viewer.draw();
   };
-  const jobs = new Jobs();
+  const jobs = new Jobs(() => void studio.refine());
   const motion = new Motion(studio, stage);
   const handles = new Handles(studio, stage);
   let photo: PhotoInfo | null = null;

@@ -112,6 +112,7 @@ export class Panel {
   toggleSymmetry(): void {
     this.studio.symmetric = !this.studio.symmetric;
     this.#buildFoot();
+    this.#filter();
   }
 
   randomFace(): void {
@@ -136,7 +137,8 @@ export class Panel {
     for (const { element, kind, sliders } of this.#groups) {
       let found = 0;
       for (const slider of sliders) {
-        const seen = words.length ? slider.matches(words) : kind === this.#kind;
+        const wanted = words.length ? slider.matches(words) : kind === this.#kind;
+        const seen = wanted && (!slider.isSecond || words.includes("right"));
         slider.element.hidden = !seen;
         found += Number(seen);
       }
@@ -152,7 +154,7 @@ export class Panel {
     const { weights } = this.studio.doc;
     for (const { element, sliders } of this.#groups) {
       if (element.hidden) continue;
-      const set = sliders.filter(({ control }) => weights[control.name]).length;
+      const set = sliders.filter((s) => weights[s.control.name] && !s.isSecond).length;
       element.querySelector(".count")!.textContent = set ? String(set) : "";
       for (const slider of sliders) if (!slider.element.hidden) slider.show();
     }

@@ -8,6 +8,7 @@ export class Slider {
   readonly element: HTMLElement;
   #range: HTMLInputElement;
   #number: HTMLInputElement;
+  #title: HTMLLabelElement;
 
   constructor(
     private studio: Studio,
@@ -20,6 +21,7 @@ export class Slider {
       type: "number", min: low, max: high, step: 10 * step, "aria-label": `${label}, exact value`,
     });
     const title = h("label", { for: `c-${name}`, title: `${description} (double-click resets)` }, label);
+    this.#title = title;
     this.element = h("div", { class: "slider", "data-control": name }, title, this.#number, this.#range);
     this.#range.addEventListener("input", () => this.#set(this.#range.valueAsNumber, false));
     this.#range.addEventListener("change", () => this.#set(this.#range.valueAsNumber, true));
@@ -38,8 +40,16 @@ export class Slider {
     return words.every((word) => text.includes(word));
   }
 
+  // Where both sides move together, the left one stands for both.
+  get isSecond(): boolean {
+    const { name, mirror } = this.control;
+    return this.studio.symmetric && mirror !== null && name.endsWith("Right");
+  }
+
   show(): void {
-    const { name, low, high } = this.control;
+    const { name, low, high, label, mirror } = this.control;
+    const both = this.studio.symmetric && mirror !== null;
+    this.#title.textContent = both ? label.replace(/ left$/, "") : label;
     const value = this.studio.doc.weights[name] ?? 0;
     this.#range.value = String(value);
     if (document.activeElement !== this.#number) this.#number.value = value.toFixed(2);

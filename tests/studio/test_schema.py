@@ -13,7 +13,7 @@ from pdeface.studio.typescript import typescript
 
 def test_the_page_has_the_types_of_the_server(root: Path) -> None:
     written = (root / "client" / "src" / "schema.ts").read_text(encoding="utf-8")
-    assert written == typescript(), "client/src/schema.ts is stale; run: make client/src/schema.ts"
+    assert written == typescript(), "client/src/schema.ts is stale; run: make docs"
 
 
 def test_every_control_is_there_with_its_range(client) -> None:

@@ -28,6 +28,7 @@ from pdeface.studio.store import FaceStore
 __all__ = ["application", "serve"]
 
 _FIRST_PORT, _PORTS = 8640, 20
+_BACKLOG = 128
 
 
 def application(
@@ -102,6 +103,8 @@ def _listener(host: str, port: int | None) -> socket.socket:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listener.bind((host, number))
+            # Who reads the address and comes at once waits, rather than be turned away.
+            listener.listen(_BACKLOG)
             return listener
         except (OSError, OverflowError) as error:
             listener.close()

@@ -1,4 +1,4 @@
-"""The types of :mod:`pdeface.studio.schema` in TypeScript; ``make client`` writes them.
+"""The types of :mod:`pdeface.studio.schema` in TypeScript; ``make docs`` writes them.
 
 python -m pdeface.studio.typescript > client/src/schema.ts
 """

@@ -1,0 +1,327 @@
+// What a person does in the studio, one flow after the other, and what is seen of it.
+import { join } from "node:path";
+
+// Of 256 levels of a colour: what a change must reach to be seen.
+const VISIBLE = 8;
+
+export async function flows(page, { folder, gone, returned }) {
+  const report = {};
+  const timed = async (name, flow) => {
+    const began = Date.now();
+    report[name] = await flow();
+    console.error(name, Date.now() - began, "ms");
+  };
+  await ready(page);
+  await page.evaluate(help, VISIBLE);
+  await page.locator("#density").selectOption("0");
+  await page.waitForFunction(() => studio.head.size.rows === 28 && studio.head.morph.ready, null, { polling: 50 });
+  await timed("modes", () => modes(page));
+  await timed("views", () => views(page));
+  await timed("slider", () => slider(page));
+  await timed("contact", () => contact(page));
+  await timed("controls", () => controls(page));
+  await timed("motion", () => motion(page));
+  await timed("sculpt", () => sculpt(page));
+  await timed("photo", () => photo(page));
+  await timed("files", () => files(page, folder));
+  await timed("alone", () => alone(page, gone));
+  returned();
+  await timed("recovered", () => recovered(page));
+  return report;
+}
+
+async function ready(page) {
+  await page.waitForFunction(() => document.documentElement.dataset.ready, null, { polling: 100 });
+}
+
+// Functions of the page for the flows below.
+function help(visible) {
+  window.pixels = () => {
+    viewer.drawNow();
+    const gl = viewer.renderer.getContext();
+    const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
+    const found = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, found);
+    return found;
+  };
+  window.changed = (one, other) => {
+    let count = 0;
+    for (let i = 0; i < one.length; i += 4) {
+      count += Number([0, 1, 2].some((k) => Math.abs(one[i + k] - other[i + k]) >= visible));
+    }
+    return count;
+  };
+  window.skin = () => [...studio.head.morph.positions.subarray(0, 3 * studio.head.skin.count)];
+  // The server has said where the face is at the weights of the document.
+  window.exact = () => {
+    const anchor = studio.head.morph.anchorWeights;
+    return JSON.stringify(anchor) === JSON.stringify(studio.doc.weights);
+  };
+}
+
+const settle = (page) => page.waitForFunction(() => exact(), null, { polling: 30 });
+
+async function modes(page) {
+  const found = {};
+  await page.evaluate(() => (window.kept = []));
+  for (const label of ["Textured", "Shaded", "Curvature", "Wireframe", "UV mesh", "Curves"]) {
+    await page.getByRole("button", { name: label, exact: true }).click();
+    found[label] = await page.evaluate(() => {
+      const now = pixels();
+      const least = Math.min(...kept.map((before) => changed(before, now)), 1e9);
+      kept.push(now);
+      return least;
+    });
+  }
+  await page.getByRole("button", { name: "Textured", exact: true }).click();
+  found.back = await page.evaluate(() => changed(kept[0], pixels()));
+  found.covered = await page.evaluate(() => changed(kept[0], new Uint8Array(kept[0].length)));
+  return found;
+}
+
+async function views(page) {
+  const found = {};
+  for (const [key, name] of [["1", "front"], ["3", "profile"], ["ArrowLeft", "turned"], ["+", "nearer"]]) {
+    await page.evaluate(() => (window.before = pixels()));
+    await page.keyboard.press(key);
+    await page.waitForTimeout(600);
+    found[name] = await page.evaluate(() => changed(before, pixels()));
+  }
+  await page.keyboard.press("p");
+  found.orthographic = await page.evaluate(() => viewer.orthographic);
+  await page.keyboard.press("p");
+  await page.keyboard.press("1");
+  await page.waitForTimeout(600);
+  const canvas = await page.locator("canvas").first().boundingBox();
+  const middle = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
+  await page.evaluate(() => (window.before = pixels()));
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 120, middle[1], { steps: 3 });
+  await page.mouse.up();
+  found.dragged = await page.evaluate(() => changed(before, pixels()));
+  await page.keyboard.press("1");
+  await page.waitForTimeout(600);
+  return found;
+}
+
+async function slider(page) {
+  await page.evaluate(() => (window.before = pixels()));
+  const range = page.locator("#c-noseLength");
+  const box = await range.boundingBox();
+  const at = (share) => [box.x + box.width * share, box.y + box.height / 2];
+  const steps = await page.evaluate(() => studio.timeline.steps.length);
+  await page.mouse.move(...at(0.625));
+  await page.mouse.down();
+  for (const share of [0.7, 0.8, 0.9]) await page.mouse.move(...at(share));
+  const held = await page.evaluate(() => studio.timeline.steps.length);
+  await page.mouse.up();
+  const found = await page.evaluate(() => ({
+    weight: studio.doc.weights.noseLength, steps: studio.timeline.steps.length, moved: changed(before, pixels()),
+  }));
+  await settle(page);
+  found.one = found.steps - steps;
+  found.held = held - steps;
+  await page.keyboard.press("Control+z");
+  await settle(page);
+  found.undone = await page.evaluate(() => [studio.doc.weights.noseLength ?? 0, changed(before, pixels())]);
+  await page.keyboard.press("Control+Shift+z");
+  found.redone = await page.evaluate(() => studio.doc.weights.noseLength);
+  await settle(page);
+  const exactly = page.locator("[data-control=noseLength] input[type=number]");
+  await exactly.fill("0.4");
+  await exactly.press("Enter");
+  found.exact = await page.evaluate(() => studio.doc.weights.noseLength);
+  // Without the server's word: base plus displacements alone.
+  await page.route("**/evaluate", (route) => route.fulfill({ status: 500, json: { error: "not now" } }));
+  await page.evaluate(() => {
+    studio.preview({ ...studio.doc.weights, identity03: 1.2, jawOpen: 0.5, mouthSmileLeft: 0.7 });
+    studio.commit("Several");
+  });
+  found.linear = await page.evaluate(() => ({ weights: studio.doc.weights, skin: skin() }));
+  await page.unroute("**/evaluate");
+  await range.dblclick();
+  found.reset = await page.evaluate(() => studio.doc.weights.noseLength ?? 0);
+  await settle(page);
+  return found;
+}
+
+async function contact(page) {
+  await page.evaluate(() => {
+    studio.commit("Wide", { jawOpen: 0, mouthSmileLeft: 0, eyeWideLeft: 1, eyeSquintLeft: 0.5 });
+    studio.commit("Blink", { eyeBlinkLeft: 1 });
+  });
+  await settle(page);
+  return page.evaluate(() => ({ weights: studio.doc.weights, skin: skin() }));
+}
+
+async function controls(page) {
+  const found = {};
+  await page.getByRole("tab", { name: "Expression" }).click();
+  await page.getByRole("button", { name: "Reset expression" }).click();
+  found.resetExpression = await page.evaluate(() => ({ ...studio.doc.weights }));
+  await page.locator("#preset").selectOption("happy");
+  found.preset = await page.evaluate(() => ({ ...studio.doc.weights }));
+  await page.locator("#search").fill("blink");
+  found.searched = await page.locator(".slider:visible").evaluateAll((all) => all.map((s) => s.dataset.control));
+  await page.locator("#c-eyeBlinkLeft").focus();
+  await page.keyboard.press("ArrowRight");
+  found.symmetric = await page.evaluate(() => [studio.doc.weights.eyeBlinkLeft, studio.doc.weights.eyeBlinkRight]);
+  await page.locator("#symmetry").click();
+  await page.locator("#c-eyeBlinkLeft").focus();
+  await page.keyboard.press("ArrowRight");
+  found.oneSided = await page.evaluate(() => [studio.doc.weights.eyeBlinkLeft, studio.doc.weights.eyeBlinkRight]);
+  found.bothShown = await page.locator(".slider:visible").count();
+  await page.locator("#symmetry").click();
+  await page.locator("#search").fill("");
+  await page.getByRole("tab", { name: "Shape" }).click();
+  await page.getByRole("button", { name: "Random face" }).click();
+  found.random = await page.evaluate(() => Object.keys(studio.doc.weights).filter((n) => n.startsWith("identity")).length);
+  await page.getByRole("button", { name: "Reset shape" }).click();
+  found.resetShape = await page.evaluate(() => Object.keys(studio.doc.weights).filter((n) => !/^(eye|mouth|cheek|brow)/.test(n)));
+  await page.keyboard.press("l");
+  found.theme = await page.evaluate(() => document.documentElement.dataset.theme);
+  await page.keyboard.press("l");
+  await page.keyboard.press("?");
+  found.help = await page.locator("dialog kbd").count();
+  await page.keyboard.press("Escape");
+  await page.getByRole("tab", { name: "Expression" }).click();
+  await page.getByRole("button", { name: "Reset expression" }).click();
+  await settle(page);
+  return found;
+}
+
+async function motion(page) {
+  await page.evaluate(() => (window.before = pixels()));
+  await page.getByRole("button", { name: "Motion" }).click();
+  await page.waitForFunction(() => motion.clip && motion.time > 0, null, { polling: 20 });
+  const found = { name: await page.evaluate(() => motion.clip.name) };
+  await page.getByRole("button", { name: "Pause" }).click();
+  found.playing = await page.evaluate(() => motion.playing);
+  found.shut = await page.evaluate(() => {
+    motion.seek(0.4);
+    return changed(before, pixels());
+  });
+  found.jaw = await page.evaluate(() => {
+    motion.seek(motion.duration);
+    return changed(before, pixels());
+  });
+  await page.locator("#clip").selectOption("talk");
+  await page.waitForFunction(() => motion.clip.name === "talk" && motion.time > 0.1, null, { polling: 20 });
+  found.turned = await page.evaluate(() => Math.max(...motion.clip.head.flat().map(Math.abs)) > 0.02);
+  await page.getByRole("button", { name: "Close motion" }).click();
+  await settle(page);
+  found.back = await page.evaluate(() => changed(before, pixels()));
+  found.weights = await page.evaluate(() => ({ ...studio.doc.weights }));
+  return found;
+}
+
+async function sculpt(page) {
+  const face = await page.evaluate(() => ((window.before = pixels()), studio.doc.face));
+  await page.keyboard.press("d");
+  const place = { curve: 20, point: 11 };
+  const { x, y } = await page.evaluate((each) => handles.screen(each), place);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y + 25, { steps: 3 });
+  await page.waitForFunction(() => studio.head.morph.positions.length && changed(before, pixels()) > 2000, null, { polling: 30 });
+  const found = { live: await page.evaluate(() => skin()) };
+  await page.mouse.up();
+  await page.waitForFunction((old) => studio.doc.face !== old, face, { polling: 30 });
+  await settle(page);
+  await page.waitForTimeout(300);
+  found.exact = await page.evaluate(() => skin());
+  found.label = await page.evaluate(() => studio.timeline.steps.at(-1).label);
+  await page.keyboard.press("d");
+  found.moved = await page.evaluate(() => changed(before, pixels()));
+  await page.keyboard.press("Control+z");
+  await page.waitForFunction((old) => studio.doc.face === old && exact(), face, { polling: 30 });
+  await page.waitForTimeout(600);
+  found.undone = await page.evaluate(() => changed(before, pixels()));
+  return found;
+}
+
+async function photo(page) {
+  await page.evaluate(() => (window.before = pixels()));
+  await page.getByRole("button", { name: "Photo" }).click();
+  const texture = page.locator("#texture");
+  await page.waitForFunction(() => document.querySelector("#texture")?.naturalWidth > 0, null, { polling: 30 });
+  const first = await texture.getAttribute("src");
+  const found = { points: await page.locator("circle[data-point]").count() };
+  const nose = page.locator("circle[data-point=nose_tip]");
+  const at = Number(await nose.getAttribute("cx"));
+  await nose.focus();
+  await page.keyboard.press("Shift+ArrowRight");
+  await page.keyboard.press("ArrowRight");
+  found.moved = Number(await nose.getAttribute("cx")) - at;
+  await page.waitForFunction((old) => document.querySelector("#texture").src !== old, first, { polling: 30 });
+  const box = await nose.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x - 2, box.y + 6, { steps: 2 });
+  found.loupe = await page.locator(".loupe").isVisible();
+  await page.mouse.up();
+  found.dragged = Number(await nose.getAttribute("cx")) - at;
+  await page.getByRole("button", { name: "Use this texture" }).click();
+  await page.waitForFunction(() => studio.timeline.steps.at(-1).label === "Texture of the photo" && studio.head.morph.ready, null, { polling: 30 });
+  await settle(page);
+  await page.waitForTimeout(300);
+  found.seen = await page.evaluate(() => changed(before, pixels()));
+  return found;
+}
+
+async function files(page, folder) {
+  const found = {};
+  const download = async (name, act) => {
+    const [coming] = await Promise.all([page.waitForEvent("download"), act()]);
+    await coming.saveAs(join(folder, name));
+    return coming.suggestedFilename();
+  };
+  await page.evaluate(() => studio.commit("For the file", { noseWidth: 0.5, jawOpen: 0.25 }));
+  found.saved = await download("saved.pdeface", () => page.keyboard.press("Control+s"));
+  const exported = async (suffix, name) => {
+    await page.getByRole("button", { name: "Export", exact: true }).click();
+    await page.locator(`input[value="${suffix}"]`).check({ force: true });
+    return download(name, () => page.locator("dialog #export").click());
+  };
+  found.glb = await exported(".glb", "out.glb");
+  found.still = await exported("still", "still.png");
+  await page.evaluate(async () => {
+    const file = await (await fetch(`/api/faces/${studio.doc.face}/save`, {
+      method: "POST", body: JSON.stringify({ name: "Cy", weights: { browInnerUp: 1 } }),
+    })).blob();
+    await files.take(new File([file], "cy.pdeface"));
+  });
+  found.opened = await page.evaluate(() => [studio.doc.name, studio.doc.weights]);
+  await page.evaluate(() => files.take(new File(["<html>"], "face.png")));
+  found.refused = await page.locator(".toast.bad").last().textContent();
+  await page.evaluate(() => files.take(new File(["Timecode,BlendshapeCount,JawOpen\n00:00:01:00.000,61,0\n00:00:01:30.000,61,1\n"], "take.csv")));
+  found.recording = await page.evaluate(() => [motion.clip.name, motion.duration]);
+  await page.getByRole("button", { name: "Close motion" }).click();
+  await settle(page);
+  return found;
+}
+
+// The server dies: sliders live on, nothing is lost, and a new server is told what it has to know.
+async function alone(page, gone) {
+  const found = await gone(() => page.evaluate(async () => {
+    const before = pixels();
+    studio.preview({ noseLength: 1, jawOpen: 0.8 });
+    studio.commit("Alone");
+    await new Promise((done) => setTimeout(done, 600));
+    return { moved: changed(before, pixels()), told: document.querySelector(".toast.bad")?.textContent };
+  }));
+  await page.evaluate(() => studio.commit("Together", { noseLength: 0.5 }));
+  await settle(page);
+  found.weights = await page.evaluate(() => ({ ...studio.doc.weights }));
+  return found;
+}
+
+async function recovered(page) {
+  await page.waitForTimeout(400);
+  const before = await page.evaluate(() => [studio.timeline.steps.length, studio.doc]);
+  await page.reload();
+  await ready(page);
+  const after = await page.evaluate(() => [studio.timeline.steps.length, studio.doc]);
+  return { before, after };
+}

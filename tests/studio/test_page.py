@@ -1,0 +1,210 @@
+"""The studio used by hand in a real browser: state and pixels."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import pdeface
+from pdeface.studio import assets
+
+HERE = Path(__file__).parent
+PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
+SEEN = 200
+"""Pixels, of some 300,000."""
+
+ALIKE = 1e-5
+"""Metres, between the page's sum in single precision and the library."""
+
+
+def missing() -> str | None:
+    """What is not there to run a browser, and how to get it."""
+    if shutil.which("node") is None:
+        return "Node.js is not installed"
+    if not (HERE.parent / "browser" / "node_modules" / "playwright-core").is_dir():
+        return "Playwright is not installed; run: npm ci --prefix tests/browser"
+    if not any(map(shutil.which, PROGRAMS)):
+        return f"no browser is installed; one of {', '.join(PROGRAMS)} is needed"
+    try:
+        assets.folder()
+    except pdeface.PDEFaceError as error:
+        return str(error)
+    return None
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("studio")
+
+
+@pytest.fixture(scope="module")
+def person() -> pdeface.Face:
+    rows, columns = np.indices((64, 64))
+    texture = np.stack([200 - rows, 150 + columns // 2, 120 + rows // 2], axis=-1)
+    return pdeface.neutral().with_name("Ada").with_texture(texture.astype(np.uint8))
+
+
+@pytest.fixture(scope="module")
+def report(folder: Path, person: pdeface.Face) -> dict[str, Any]:
+    """What the one visit of the browser found."""
+    if reason := missing():
+        if os.environ.get("CI", "").lower() == "true":
+            pytest.fail(reason)
+        pytest.skip(reason)
+    browser = next(filter(None, map(shutil.which, PROGRAMS)))
+    person.save(folder / "ada.pdeface")
+    source = [str(folder / "ada.pdeface"), str(folder)]
+    command = ["node", str(HERE / "browser.mjs"), browser, sys.executable, *source]
+    answer = subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
+    assert answer.returncode == 0, answer.stderr
+    found: dict[str, Any] = json.loads(answer.stdout)
+    return found
+
+
+def skin(face: pdeface.Face) -> np.ndarray:
+    return face.mesh(28, 41).vertices
+
+
+def test_nothing_is_complained_of_and_nothing_asked_of_the_network(report) -> None:
+    assert report["complaints"] == []
+
+
+def test_every_way_of_showing_looks_different(report) -> None:
+    modes = report["modes"]
+    assert modes["covered"] > 20_000
+    assert modes["back"] == 0
+    ways = ("Shaded", "Curvature", "Wireframe", "UV mesh", "Curves")
+    assert {way: modes[way] for way in ways if modes[way] < 1000} == {}
+
+
+def test_the_camera_moves_by_keys_and_by_dragging(report) -> None:
+    views = report["views"]
+    assert views.pop("orthographic") is True
+    assert {name: count for name, count in views.items() if count < 1000} == {}
+
+
+def test_a_gesture_on_a_slider_is_one_step(report) -> None:
+    slider = report["slider"]
+    assert slider["weight"] == pytest.approx(0.8, abs=0.08)
+    assert (slider["held"], slider["one"]) == (0, 1)
+    assert slider["moved"] > SEEN
+
+
+def test_undo_and_redo_bring_back_what_was_seen(report) -> None:
+    assert report["slider"]["undone"] == [0, 0]
+    assert report["slider"]["redone"] == report["slider"]["weight"]
+
+
+def test_numbers_are_exact_and_a_double_click_resets(report) -> None:
+    assert report["slider"]["exact"] == 0.4
+    assert report["slider"]["reset"] == 0
+
+
+def test_the_page_s_own_sum_is_the_library_s_surface(report, person) -> None:
+    linear = report["slider"]["linear"]
+    assert len(linear["weights"]) == 4
+    found = np.reshape(linear["skin"], (-1, 3))
+    expected = skin(person.with_weights(linear["weights"]))
+    np.testing.assert_allclose(found, expected, atol=ALIKE)
+    assert np.abs(expected - skin(person)).max() > 100 * ALIKE
+
+
+def test_a_wide_eye_blinks_shut(report, person) -> None:
+    """The server's word, with lids in contact, takes the place of the sum."""
+    contact = report["contact"]
+    assert contact["weights"]["eyeBlinkLeft"] == 1
+    found = np.reshape(contact["skin"], (-1, 3))
+    np.testing.assert_allclose(found, skin(person.with_weights(contact["weights"])), atol=ALIKE)
+
+
+def test_what_concerns_many_controls_at_once(report) -> None:
+    controls = report["controls"]
+    assert set(controls["resetExpression"]) == {"identity03"}
+    assert controls["preset"]["mouthSmileLeft"] == 0.75
+    assert controls["random"] > 40
+    assert controls["resetShape"] == []
+
+
+def test_search_finds_and_symmetry_pairs(report) -> None:
+    controls = report["controls"]
+    assert controls["searched"] == ["eyeBlinkLeft"]
+    left, right = controls["symmetric"]
+    assert left == right > 0
+    left, right = controls["oneSided"]
+    assert left > right > 0
+    assert controls["bothShown"] == 2
+
+
+def test_theme_and_help(report) -> None:
+    assert report["controls"]["theme"] in ("dark", "light")
+    assert report["controls"]["help"] > 20
+
+
+def test_a_clip_plays_and_leaves_no_trace(report) -> None:
+    motion = report["motion"]
+    assert motion["name"] == "blink"
+    assert motion["playing"] is False
+    assert motion["shut"] > SEEN
+    assert motion["jaw"] == 0
+    assert motion["turned"]
+    assert motion["back"] == 0
+    assert motion["weights"] == {}
+
+
+def test_a_dragged_curve_is_the_library_s_surface(report) -> None:
+    sculpt = report["sculpt"]
+    live, exact = np.array(sculpt["live"]), np.array(sculpt["exact"])
+    np.testing.assert_allclose(live, exact, atol=ALIKE)
+    assert sculpt["moved"] > SEEN
+    assert sculpt["undone"] == 0
+    assert sculpt["label"] == "Curve 21"
+
+
+def test_points_of_a_photo_make_a_texture(report) -> None:
+    photo = report["photo"]
+    assert photo["points"] >= 25
+    assert photo["moved"] == pytest.approx(2.75)  # of 256 pixels: ten steps of a quarter, and one
+    assert photo["loupe"]
+    assert photo["dragged"] < photo["moved"]
+    assert photo["seen"] > 5000
+
+
+def test_saved_and_exported_files_are_what_was_shown(report, folder: Path) -> None:
+    files = report["files"]
+    assert (files["saved"], files["glb"], files["still"]) == ("Ada.pdeface", "Ada.glb", "Ada.png")
+    saved = pdeface.load(folder / "saved.pdeface")
+    assert dict(saved.weights) == {"noseWidth": 0.5, "jawOpen": 0.25}
+    assert (folder / "out.glb").read_bytes().startswith(b"glTF")
+    with Image.open(folder / "still.png") as still:
+        alpha = np.asarray(still.convert("RGBA"))[..., 3]
+    assert (alpha == 0).any()
+    assert (alpha == 255).any()
+
+
+def test_files_are_opened_and_refused_by_what_they_are(report) -> None:
+    files = report["files"]
+    assert files["opened"] == ["Cy", {"browInnerUp": 1}]
+    assert "got something else" in files["refused"]
+    assert files["recording"][0] == "take"
+    assert files["recording"][1] > 0.4
+
+
+def test_sliders_live_on_without_the_server_and_it_is_told_anew(report) -> None:
+    alone = report["alone"]
+    assert alone["moved"] > SEEN
+    assert "start pdeface studio again" in alone["told"]
+    assert alone["weights"]["noseLength"] == 0.5
+
+
+def test_a_reload_loses_nothing(report) -> None:
+    assert report["recovered"]["after"] == report["recovered"]["before"]
+    assert report["recovered"]["before"][0] > 5
