@@ -1,7 +1,8 @@
 """How well lids and lips meet: ``python -m benchmarks.contact [ICT_FACEKIT_FOLDER]``.
 
-Not a timing. The gap of the left lids at a full blink, for docs/openings.md; and with the folder of
-the measured head, how far beyond it upper lip and nose move when the jaw opens.
+Not a timing. The gap of the left lids at a full blink and the cells that fold on its way, for
+docs/openings.md; and with the folder of the measured head, how far beyond it upper lip and nose
+move when the jaw opens.
 """
 
 from __future__ import annotations
@@ -13,33 +14,55 @@ import numpy as np
 
 import pdeface
 from pdeface.controls import slits
-from pdeface.controls.seams import nearest, seam
+from pdeface.controls.seams import nearest
 from pdeface.pde import PDESurface
 
 LEVELS = ("28x46", "55x92")
-OTHERS = ({}, {"eyeSquintLeft": 1.0}, {"eyeWideLeft": 1.0})
-MIDDLE = slice(8, -8)
+MESHES = ((28, 41), (55, 81), (109, 161))
+PEOPLE = (None, *range(20))
+LOOKS = tuple(f"eyeLook{way}Left" for way in ("Up", "Down", "In", "Out"))
+COMPANY = {
+    "alone": {},
+    "eyeWide": {"eyeWideLeft": 1.0},
+    "eyeSquint": {"eyeSquintLeft": 1.0},
+    "a look": {"eyeLookDownLeft": 1.0, "eyeLookOutLeft": 1.0},
+    "all of these": {"eyeWideLeft": 1.0, "eyeSquintLeft": 1.0, **dict.fromkeys(LOOKS[:3:2], 1.0)},
+}
+BLINKS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
 def main(head: str | None = None) -> None:
-    print("gap of the lids at a full blink, mm: away from the corners, and at most anywhere")
+    print(f"{len(PEOPLE)} people. Gap of the shut lids on the mesh, mm; folded cells on average")
     for level in LEVELS:
-        for seed in (None, 0, 1, 2):
-            face = pdeface.neutral(level) if seed is None else pdeface.random(seed, level)
-            gaps = [lid_gap(face.set(eyeBlinkLeft=1.0, **others)) for others in OTHERS]
-            row = ", ".join(f"{gap[MIDDLE].max():.2f} ({gap.max():.2f})" for gap in gaps)
-            print(f"{level} {face.name}: alone, with squint, with wide: {row}")
+        people = [pdeface.neutral(level) if p is None else pdeface.random(p, level) for p in PEOPLE]
+        for mesh in MESHES:
+            for name, company in COMPANY.items():
+                faces = [person.set(**company) for person in people]
+                gaps = [lid_gap(face.set(eyeBlinkLeft=1.0), mesh) for face in faces]
+                folds = [[folded(f.set(eyeBlinkLeft=b), mesh) for f in faces] for b in BLINKS]
+                said = ", ".join(f"{np.mean(row):.2f}" for row in folds)
+                print(f"{level} on {mesh[0]} x {mesh[1]}, {name}: {max(gaps):.3f} mm; {said}")
     if head is not None:
         for level in LEVELS:
             print(f"{level} jawOpen: {overshoot(level, Path(head))}")
 
 
-def lid_gap(face: pdeface.Face) -> np.ndarray:
-    """(n,) distance of each place on the upper line to the lower line, mm."""
-    moved = face.displacement
-    lids = seam("left_eye", face.curves.shape)
-    upper, lower = lids.lines(face.curves.points + moved.smooth, moved.parting)
-    return 1000.0 * np.linalg.norm(upper - nearest(lower, upper), axis=1)
+def lid_gap(face: pdeface.Face, size: tuple[int, int]) -> float:
+    """How far any place on the edge of one left lid is from the other, mm."""
+    cut, vertices = face.uv_mesh(*size).cuts[1], face.mesh(*size).vertices
+    edges = [vertices[row * size[1] + cut.columns] for row in (cut.upper, cut.lower)]
+    t = np.linspace(0.0, 1.0, 12)[:, None, None]
+    dense = [(edge[:-1] + t * np.diff(edge, axis=0)).reshape(-1, 3) for edge in edges]
+    away = [dense[i] - nearest(edges[1 - i], dense[i]) for i in (0, 1)]
+    return 1000.0 * float(np.linalg.norm(np.concatenate(away), axis=1).max())
+
+
+def folded(face: pdeface.Face, size: tuple[int, int]) -> int:
+    """Cells whose two triangles face opposite ways."""
+    mesh = face.mesh(*size)
+    a, b, c, d = mesh.vertices[mesh.quads].transpose(1, 0, 2)
+    halves = np.cross(b - a, c - a), np.cross(c - a, d - a)
+    return int((np.einsum("ij,ij->i", *halves) < 0.0).sum())
 
 
 def overshoot(level: str, head: Path) -> str:
