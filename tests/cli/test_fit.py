@@ -64,6 +64,20 @@ def test_bad_input_is_one_line(words, says, files, tmp_path, monkeypatch, pdefac
     assert not list(tmp_path.iterdir())
 
 
+def test_a_compact_face(files, tmp_path: Path, pdeface_command) -> None:
+    scan, points = files
+    out = tmp_path / "small.pdeface"
+    words = ["--landmarks", points, "-o", out, "--level", "28x46", "--compact", "0.1"]
+    done = pdeface_command("fit", scan, *words)
+    assert done.status == 0, done.err
+    assert "bytes, off by 0.100 mm" in done.out or "bytes, off by 0.099 mm" in done.out
+    assert out.stat().st_size < 700
+    assert pdeface.load(out).curves.shape == (28, 46)
+    refused = pdeface_command("fit", scan, "-o", tmp_path / "a.glb", "--compact", "0.1")
+    assert refused.status == 2
+    assert "--compact needs" in refused.err
+
+
 def test_a_folder_of_scans_becomes_a_folder_of_faces(
     files, shared_data: Path, tmp_path: Path, monkeypatch, pdeface_command
 ) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pdeface.cli.compact import CompactOption, check_compact, is_face, write_compact
 from pdeface.cli.moves import chosen_expressions, parse_weights, speaking, with_weights
 from pdeface.cli.options import (
     DEFAULT_MESH,
@@ -23,10 +24,9 @@ from pdeface.cli.options import (
     parse_mesh,
 )
 from pdeface.cli.report import Report
-from pdeface.errors import InputError
 
 if TYPE_CHECKING:
-    from pdeface import Face
+    pass
 
 __all__ = ["export"]
 
@@ -46,12 +46,7 @@ def export(
         typer.Option("--quads/--triangles", help="Quads (.obj, .ply) or triangles; by default "
                      "quads in .obj, triangles elsewhere."),
     ] = None,
-    compact: Annotated[
-        float | None,
-        typer.Option("--compact", metavar="MM", help="Write .pdeface files of a few hundred bytes "
-                     "and the texture, whose curves are off by so many millimetres, root mean "
-                     "square; 0.1 is less than a scanner sees."),
-    ] = None,
+    compact: CompactOption = None,
     set_: SetOption = None,
     clamp: ClampOption = False,
     expressions: ExpressionsOption = None,
@@ -87,14 +82,10 @@ def export(
     moving = chosen_expressions(value, expressions, out)
     talking = speaking(visemes, value, out)
     check_outputs(out, [face], SUFFIXES)
-    small = [path for path in out if path.suffix.lower() == ".pdeface"]
-    if compact is not None and not small:
-        raise InputError(
-            "--compact needs an output that ends in .pdeface; add one, or leave it out"
-        )
+    check_compact(compact, out)
     for path in out:
-        if compact is not None and path in small:
-            _write_compact(value, path, compact, report)
+        if compact is not None and is_face(path):
+            write_compact(value, path, compact, report)
             continue
         with report.step(f"writing {path}"):
             pdeface.export(
@@ -108,16 +99,3 @@ def export(
                 visemes=path in talking,
             )
         report.wrote(path)
-
-
-def _write_compact(face: Face, path: Path, millimetres: float, report: Report) -> None:
-    from pdeface.files import atomic_write
-
-    with report.step(f"writing {path}"):
-        made = face.compact(1e-3 * millimetres)
-        atomic_write(path, made.data)
-    report.wrote(path)
-    report.say(
-        f"shape: {made.shape_bytes} bytes, off by {1e3 * made.rms:.3f} mm (root mean square), "
-        f"at most {1e3 * made.largest:.2f} mm"
-    )

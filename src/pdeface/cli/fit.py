@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from pdeface.cli.compact import CompactOption, check_compact
 from pdeface.cli.options import (
     DEFAULT_MESH,
     MeshOption,
@@ -67,6 +68,7 @@ def fit(
         bool, typer.Option("--texture/--no-texture", help="Carry the scan's colours over."),
     ] = True,
     mesh: MeshOption = DEFAULT_MESH,
+    compact: CompactOption = None,
     formats: Annotated[
         str,
         typer.Option("--formats", metavar="NAME,...", help="For a folder of scans: the files to "
@@ -94,10 +96,11 @@ def fit(
       pdeface fit head.obj -o face.pdeface --report fit.png
       pdeface fit head.stl --units mm --level 109x184 -o face.glb
       pdeface fit cloud.ply --landmarks points.json -o face.pdeface
+      pdeface fit head.ply -o small.pdeface --no-texture --compact 0.1
       pdeface fit scans/ -o faces/ --jobs 2
     """
     how = Fitting(
-        parse_level(level), units, landmarks, rounded, model, texture, mesh=parse_mesh(mesh)
+        parse_level(level), units, landmarks, rounded, model, texture, parse_mesh(mesh), compact
     )
     from pdeface.formats import SUFFIXES
     from pdeface.pictures.image_file import FORMATS as PICTURES
@@ -111,6 +114,7 @@ def fit(
         fit_folder(scan, out, formats, jobs, how, report)
         return
     inputs = [scan, landmarks, model]
+    check_compact(compact, out)
     check_outputs(out, inputs, SUFFIXES)
     check_outputs([report_picture] if report_picture else [], [*inputs, *out], [*PICTURES])
     found, measures = fit_file(scan, out, how, report)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from pdeface.cli.batch import planned, work_through
+from pdeface.cli.compact import check_compact, is_face, write_compact
 from pdeface.cli.report import Report
 from pdeface.errors import InputError
 
@@ -27,6 +28,7 @@ class Fitting(NamedTuple):
     model: Path | None
     texture: bool
     mesh: tuple[int, int]
+    compact: float | None
 
 
 def fit_file(
@@ -59,6 +61,9 @@ def fit_file(
             image = texture_of(found)
             face = face if image is None else face.with_texture(image)
     for path in out:
+        if how.compact is not None and is_face(path):
+            write_compact(face, path, how.compact, report)
+            continue
         with report.step(f"writing {path}"):
             pdeface.export(face, path, mesh=how.mesh)
         report.wrote(path)
@@ -87,6 +92,7 @@ def fit_folder(
     for suffix in suffixes:
         if suffix not in FORMATS:
             raise InputError(f"--formats takes {', '.join(FORMATS)}, got '{suffix}'")
+    check_compact(how.compact, [Path(f"face{suffix}") for suffix in suffixes])
     scans = sorted(p for p in folder.iterdir() if p.suffix.lower() in SUFFIXES and p.is_file())
     if not scans:
         raise InputError(f"expected scans in '{folder}', found none; name another folder")
