@@ -65,4 +65,4 @@ class Wishes:
         """The face with the shape of the person in the photos, unless another is asked for."""
         if self.random is not None or self.neutral_shape:
             return start
-        return start.with_weights({**views[0].shape.identity, **start.weights})
+        return views[0].shape.worn_by(start)

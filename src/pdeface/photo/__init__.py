@@ -18,11 +18,12 @@ from pdeface.photo.covering import COVERED, covered
 from pdeface.photo.doubts import doubts
 from pdeface.photo.found import PhotoFace, choose
 from pdeface.photo.landmarker import find_faces, glances
+from pdeface.photo.lens import focal_length
 from pdeface.photo.model import model_file
 from pdeface.photo.person import TextureWay, photo_views, portrait_person, textured
 from pdeface.photo.points import feature_points
 from pdeface.photo.reporting import photo_report
-from pdeface.photo.shape import PhotoShape, fit_shape
+from pdeface.photo.shape import PhotoShape, fit_shape, fit_shapes
 from pdeface.photo.texturing import PhotoView, projected_texture
 
 __all__ = [
@@ -37,6 +38,8 @@ __all__ = [
     "feature_points",
     "find_faces",
     "fit_shape",
+    "fit_shapes",
+    "focal_length",
     "glances",
     "model_file",
     "photo_report",

@@ -19,7 +19,7 @@ from pdeface.photo import _views
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.model import model_file
 
-__all__ = ["find_faces", "glances"]
+__all__ = ["faces_in", "find_faces", "glances", "landmarker"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -46,12 +46,12 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
     with _quiet():
         require("mediapipe", "photo", "to find faces in photos")
     path = model_file(model)
-    with _quiet(), _landmarker(path) as detect:
+    with _quiet(), landmarker(path) as detect:
         for views in _views.tries(pixels):
-            faces = _faces_in(views, detect, pixels.shape)
+            faces = faces_in(views, detect, pixels.shape)
             # Many looks find many things. A face is one also when it is looked at alone.
             closer = [_views.around(face, pixels) for face in _views.distinct(faces)]
-            if faces := _views.distinct(_faces_in(closer, detect, pixels.shape)):
+            if faces := _views.distinct(faces_in(closer, detect, pixels.shape)):
                 return faces
     return []
 
@@ -75,11 +75,11 @@ def glances(model: PathLike | None = None) -> Iterator[Callable[[Any], list[Phot
     with _quiet():
         require("mediapipe", "photo", "to find faces in pictures")
     path = model_file(model)
-    with _quiet(), _landmarker(path) as detect:
+    with _quiet(), landmarker(path) as detect:
 
         def look(pixels: Any) -> list[PhotoFace]:
             view = _views.View(_checked(pixels), (0.0, 0.0), (pixels.shape[1], pixels.shape[0]))
-            return _views.distinct(_faces_in([view], detect, pixels.shape))
+            return _views.distinct(faces_in([view], detect, pixels.shape))
 
         yield look
 
@@ -97,7 +97,7 @@ def _checked(photo: Any) -> Pixels:
 
 
 @contextmanager
-def _landmarker(model: Path) -> Iterator[Any]:
+def landmarker(model: Path) -> Iterator[Any]:
     """A function from (h, w, 3) pixels to MediaPipe's result."""
     import mediapipe
     from mediapipe.tasks.python import BaseOptions, vision
@@ -127,7 +127,7 @@ def _landmarker(model: Path) -> Iterator[Any]:
         landmarker.close()  # its destructor fails when the interpreter ends
 
 
-def _faces_in(views: Iterable[_views.View], detect: Any, shape: tuple[int, ...]) -> list[PhotoFace]:
+def faces_in(views: Iterable[_views.View], detect: Any, shape: tuple[int, ...]) -> list[PhotoFace]:
     """What is found in each view, in the coordinates of a photo of (height, width, ...)."""
     faces = []
     for view in views:

@@ -13,7 +13,7 @@ from pdeface.face import Face
 from pdeface.photo.bundled import portrait_face
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.points import feature_points
-from pdeface.photo.shape import fit_shape
+from pdeface.photo.shape import fit_shapes
 from pdeface.photo.texturing import PhotoView, projected_texture
 from pdeface.texture import portrait, uv_texture
 
@@ -23,13 +23,16 @@ TextureWay = Literal["project", "warp"]
 
 
 def photo_views(
-    photos: Sequence[NDArray[np.uint8]], found: Sequence[PhotoFace]
+    photos: Sequence[NDArray[np.uint8]],
+    found: Sequence[PhotoFace],
+    focals: Sequence[float | None] | None = None,
 ) -> tuple[PhotoView, ...]:
-    """The photos of one person with the shape fitted to each, the one seen from the front first.
+    """The photos of one person with the shape fitted to all, the one seen from the front first.
 
     Args:
         photos: (H, W, 3 or 4) uint8 each.
         found: the person's face in each of them.
+        focals: their focal lengths (:func:`pdeface.photo.focal_length`), None where not known.
 
     Raises:
         InputError: no photo, or not one face for each.
@@ -39,7 +42,8 @@ def photo_views(
             f"a person needs photos and one face in each, got {len(photos)} photos and "
             f"{len(found)} faces; give one face for each photo"
         )
-    views = [PhotoView(p, f, fit_shape(f)) for p, f in zip(photos, found, strict=True)]
+    shapes = fit_shapes(found, focals)
+    views = [PhotoView(*view) for view in zip(photos, found, shapes, strict=True)]
     return tuple(sorted(views, key=lambda view: abs(view.found.yaw) + abs(view.found.pitch)))
 
 

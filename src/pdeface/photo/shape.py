@@ -1,37 +1,30 @@
-"""The shape of a photo's person: camera, identity and expression from the landmarks."""
+"""The shape of a photo's person: camera, identity, expression and what is left of the landmarks."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.controls import CONTROLS
+from pdeface.errors import InputError
 from pdeface.face import Face, neutral
 from pdeface.photo.anchors import anchors
-from pdeface.photo.camera import PARAMETERS, PhotoCamera
+from pdeface.photo.camera import PhotoCamera
+from pdeface.photo.fitting import MESH_LANDMARKS, Fit, basis, fit_view
 from pdeface.photo.found import PhotoFace
+from pdeface.photo.regression import expected_identity
+from pdeface.photo.residual import FACING, curve_residual, facing, moved
 
-__all__ = ["PhotoShape", "fit_shape"]
+__all__ = ["PhotoShape", "fit_shape", "fit_shapes"]
 
 FloatArray = NDArray[np.float64]
 
-_MESH_LANDMARKS = 468  # the irises' five each, after these, move with the gaze
-_DOUBT = 6.0
-"""What the landmarks' own spread is multiplied by: photos differ more than the pictures did."""
+_DIAGONAL = 43.267
+"""Of the frame of 24 x 36 millimetres that focal lengths refer to."""
 
-_EXPRESSION_SPREAD = 0.3
-"""Standard deviation of an expression from the detector's score for it."""
-
-_OUTLIER = 2.5
-"""Standard deviations from which on a landmark loses weight."""
-
-_ERRORS = 1.0
-"""Standard deviations of the modes in which they err together, of those in the pictures."""
-
-_MOST, _MOST_ERROR, _ROUNDS = 3.0, 5.0, 12
+_MOST = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,119 +32,106 @@ class PhotoShape:
     """What the landmarks say of a face.
 
     Attributes:
-        identity: weights of the identity modes by name, standard deviations.
+        identity: weights of the identity modes by name, standard deviations, -3 to 3.
         expression: weights of the expressions that the photo shows, by name.
         camera: the camera that took it.
+        residual: (K, M, 3) displacement of the neutral face's curves, metres, that no identity
+            mode has.
         error: root mean square distance of the landmarks from where the fitted face has them,
-            in eye distances.
+            in eye distances, of those that face the camera: within 75 degrees.
     """
 
     identity: dict[str, float]
     expression: dict[str, float]
     camera: PhotoCamera
+    residual: FloatArray
     error: float
 
     @property
     def face(self) -> Face:
-        """The person at rest, with the neutral face's curves."""
-        return neutral().with_weights(self.identity)
+        """The person at rest."""
+        return self.worn_by(neutral())
+
+    def worn_by(self, start: Face) -> Face:
+        """A face with the person's identity, and with the residual if it has as many curves."""
+        if start.curves.points.shape == self.residual.shape:
+            start = moved(start, self.residual)
+        return start.with_weights({**self.identity, **start.weights})
 
 
-@dataclass(frozen=True, eq=False)
-class _Basis:
-    """Where the landmarks are on the face, and how controls move them."""
-
-    names: tuple[str, ...]
-    identities: int
-    neutral: FloatArray  # (n, 3)
-    moves: FloatArray  # (controls, n, 3)
-
-    def at(self, values: FloatArray) -> FloatArray:
-        """(n, 3) points of the face with these values of the controls."""
-        return np.asarray(self.neutral + np.tensordot(values, self.moves, 1))
+def fit_shape(face: PhotoFace, focal: float | None = None) -> PhotoShape:
+    """Camera, identity and expression of one face; as :func:`fit_shapes` of one photo."""
+    return fit_shapes([face], [focal])[0]
 
 
-@lru_cache(maxsize=1)
-def _basis() -> _Basis:
-    face = neutral()
-    u, v = anchors().uv[:_MESH_LANDMARKS].T
-    kinds = {k: [n for n, c in CONTROLS.items() if c.kind == k] for k in ("identity", "expression")}
-    names = (*kinds["identity"], *kinds["expression"])
-    middle = face.surface()(u, v)
-    moved = np.array([face.with_weights({name: 1.0}).surface()(u, v) for name in names])
-    return _Basis(names, len(kinds["identity"]), middle, moved - middle)
+def fit_shapes(
+    faces: Sequence[PhotoFace], focals: Sequence[float | None] | None = None
+) -> tuple[PhotoShape, ...]:
+    """One person's shape from one photo or more, and the camera and expression of each.
 
-
-def fit_shape(face: PhotoFace) -> PhotoShape:
-    """Camera, identity and expression that explain the landmarks best.
-
-    Least squares on the distances in the photo, each divided by what is usual for its landmark and
-    weighed down if it is an outlier (Cauchy's weights). Identity weights are expected to be
-    normally distributed, expressions to be about those that the detector names, and the landmarks
-    to err together in the ways in which they did in pictures of known heads. Gauss and Newton's
-    method, all values kept in their ranges.
+    The identity is what landmarks like these were found to belong to
+    (:mod:`pdeface.photo.regression`), all photos together. Given that, camera and expression
+    explain each photo's landmarks best; what these still differ by is a displacement of the
+    curves (:mod:`pdeface.photo.residual`), which all photos share.
 
     Args:
-        face: found in a photo.
+        faces: one person's, in one photo each.
+        focals: the photos' focal lengths, as if on a frame of 24 x 36 millimetres
+            (:func:`pdeface.photo.focal_length`); None where it is not known.
+
+    Raises:
+        InputError: no face, not one focal length for each, or one that is not positive.
     """
-    basis = _basis()
-    target = face.landmarks[:_MESH_LANDMARKS, :2]
-    errors = _errors(face)
-    sigma = _DOUBT * anchors().spread[:_MESH_LANDMARKS] * face.eye_distance
-    mean, spread, low, high = _priors(basis, face)
-    camera, values = _first_camera(face, basis), np.clip(mean, low, high)
-    controls = len(basis.names)
-    for _ in range(_ROUNDS):
-        points = basis.at(values[:controls])
-        found = camera.project(points) + np.tensordot(values[controls:], errors, 1)
-        off = (target - found) / sigma[:, None]
-        moves = camera.own_moves(points), camera.moves(points, basis.moves), errors
-        slopes = np.concatenate(moves)
-        slopes = (slopes / sigma[:, None]).reshape(len(slopes), -1)
-        weight = 1.0 / (1.0 + (off**2).sum(axis=1) / _OUTLIER**2)
-        weighed = slopes * np.repeat(weight, 2)
-        stiffness, pull = np.zeros((2, len(slopes)))
-        stiffness[PARAMETERS:] = 1.0 / spread**2
-        pull[PARAMETERS:] = (mean - values) / spread**2
-        normal = weighed @ slopes.T + np.diag(stiffness)
-        step = np.linalg.solve(normal, weighed @ off.ravel() + pull)
-        camera = camera.stepped(step[:PARAMETERS])
-        values = np.clip(values + step[PARAMETERS:], low, high)
-    away = np.linalg.norm(target - camera.project(basis.at(values[:controls])), axis=1)
-    weights = list(zip(basis.names, values[:controls].tolist(), strict=True))
+    pixels = _pixels(faces, [None] * len(faces) if focals is None else focals)
+    weights = np.clip(expected_identity(faces, pixels), -_MOST, _MOST)
+    names = basis().names[: basis().identities]
+    identity = dict(zip(names, weights.tolist(), strict=True))
+    person = neutral().with_weights(identity)
+    rest = _landmarks_at(person)
+    fits = [fit_view(f, rest, p) for f, p in zip(faces, pixels, strict=True)]
+    residual, cameras = curve_residual(person, list(zip(faces, fits, strict=True)))
+    step = _landmarks_at(moved(person, residual)) - rest
+    fits = [replace(fit, camera=camera, points=fit.points + step)
+            for fit, camera in zip(fits, cameras, strict=True)]  # fmt: skip
+    return tuple(
+        _shape(face, person, fit, identity, residual) for face, fit in zip(faces, fits, strict=True)
+    )
+
+
+def _shape(
+    face: PhotoFace, person: Face, fit: Fit, identity: dict[str, float], residual: FloatArray
+) -> PhotoShape:
+    names = basis().names[basis().identities :]
+    away = face.landmarks[:MESH_LANDMARKS, :2] - fit.camera.project(fit.points)
+    away = away[facing(person, fit) > FACING]
     return PhotoShape(
-        identity=dict(weights[: basis.identities]),
-        expression=dict(weights[basis.identities :]),
-        camera=camera,
-        error=float(np.sqrt((away**2).mean()) / face.eye_distance),
+        identity=identity,
+        expression=dict(zip(names, fit.expression.tolist(), strict=True)),
+        camera=fit.camera,
+        residual=residual,
+        error=float(np.sqrt((away**2).sum(axis=1).mean()) / face.eye_distance),
     )
 
 
-def _priors(basis: _Basis, face: PhotoFace) -> tuple[FloatArray, ...]:
-    """Mean, standard deviation, lowest and highest value of each control and error."""
-    expressions = basis.names[basis.identities :]
-    scores = np.array([face.scores.get(name, 0.0) for name in expressions])
-    one = np.ones(basis.identities), np.ones(len(scores)), np.ones(len(anchors().modes))
-    return (
-        np.concatenate([0.0 * one[0], scores, 0.0 * one[2]]),
-        np.concatenate([one[0], _EXPRESSION_SPREAD * one[1], _ERRORS * one[2]]),
-        np.concatenate([-_MOST * one[0], 0.0 * one[1], -_MOST_ERROR * one[2]]),
-        np.concatenate([_MOST * one[0], one[1], _MOST_ERROR * one[2]]),
-    )
+def _landmarks_at(face: Face) -> FloatArray:
+    """(468, 3) where the landmarks are on a face, metres."""
+    return face.surface()(*anchors().uv[:MESH_LANDMARKS].T)
 
 
-def _errors(face: PhotoFace) -> FloatArray:
-    """(modes, n, 2) how the landmarks err together, in pixels of the photo."""
-    x, y = face.across * face.eye_distance
-    level = anchors().modes[:, :_MESH_LANDMARKS]
-    return np.stack([level @ (x, -y), level @ (y, x)], axis=-1)
-
-
-def _first_camera(face: PhotoFace, basis: _Basis) -> PhotoCamera:
-    """The camera by MediaPipe's pose, scaled and shifted onto the landmarks."""
-    left, _, right = np.linalg.svd(face.pose[:3, :3])
-    camera = PhotoCamera(left @ right, 1.0, np.zeros(2))
-    seen, target = camera.project(basis.neutral), face.landmarks[:_MESH_LANDMARKS, :2]
-    middles = seen.mean(axis=0), target.mean(axis=0)
-    scale = float(np.linalg.norm(target - middles[1]) / np.linalg.norm(seen - middles[0]))
-    return PhotoCamera(left @ right, scale, middles[1] - scale * middles[0])
+def _pixels(faces: Sequence[PhotoFace], focals: Sequence[float | None]) -> list[float | None]:
+    """Focal lengths in pixels of the photos."""
+    if not faces or len(faces) != len(focals):
+        raise InputError(
+            f"a shape needs faces and a focal length or None for each, got {len(faces)} faces and "
+            f"{len(focals)} focal lengths; give one for each face"
+        )
+    for focal in focals:
+        if focal is not None and not (np.isfinite(focal) and focal > 0.0):
+            raise InputError(
+                f"a focal length must be positive, in millimetres, got {focal}; leave it out where "
+                "it is not known"
+            )
+    return [
+        None if focal is None else focal / _DIAGONAL * float(np.hypot(*face.image_size))
+        for face, focal in zip(faces, focals, strict=True)
+    ]

@@ -1,8 +1,12 @@
-"""Measure where on the face the landmarks lie: ``python -m pdeface.photo.build``.
+"""Measure what the fit knows of landmarks: ``python -m pdeface.photo.build landmarks|identity``.
 
-MediaPipe looks at pictures of the neutral face and of random people from random sides. A landmark's
-(u, v) is the point of the surface that is nearest to its finds in all of them together. How these
-differ from it, together with other landmarks' and alone, is what the fit expects of a photo's.
+``landmarks`` measures where on the face they lie. MediaPipe looks at pictures of the neutral face
+and of random people from random sides. A landmark's (u, v) is the point of the surface that is
+nearest to its finds in all of them together. How these differ from it, together with other
+landmarks' and alone, is what the fit expects of a photo's.
+
+``identity HEADS`` learns which person they belong to, from pictures of ICT-FaceKit's random heads
+with random expressions, skins, lenses and light, from random sides.
 """
 
 from __future__ import annotations
@@ -17,26 +21,55 @@ from numpy.typing import NDArray
 
 from pdeface.files import atomic_path
 from pdeface.photo.anchors import DATA
+from pdeface.photo.build import learning
 from pdeface.photo.build.measure import common_errors, places_on_face
 from pdeface.photo.build.renders import Rendered, people
+from pdeface.photo.build.rounds import ROUNDS, sample_rounds
 from pdeface.photo.landmarker import find_faces
 from pdeface.photo.model import model_file
+from pdeface.photo.regression import IDENTITY
 
 FloatArray = NDArray[np.float64]
 
 
 def main() -> int:
-    """Build the file of landmarks on the face."""
+    """Build the file of landmarks on the face, or the one of the regression."""
     parser = argparse.ArgumentParser(prog="pdeface.photo.build", description=__doc__)
-    parser.add_argument("-o", "--out", type=Path, default=DATA, help="file to write")
-    parser.add_argument("--model", type=Path, help="MediaPipe's face_landmarker.task")
-    parser.add_argument("--people", type=int, default=240, help="how many to look at")
+    commands = parser.add_subparsers(dest="what", required=True)
+    places = commands.add_parser("landmarks", help="where on the face they lie")
+    places.add_argument("-o", "--out", type=Path, default=DATA, help="file to write")
+    places.add_argument("--people", type=int, default=240, help="how many to look at")
+    person = commands.add_parser("identity", help="which person they belong to")
+    person.add_argument("heads", type=Path, help="ICT-FaceKit's folder")
+    person.add_argument("-o", "--out", type=Path, default=IDENTITY, help="file to write")
+    person.add_argument("--rounds", type=int, default=ROUNDS, help="of 900 pictures each")
+    person.add_argument("--cache", type=Path, help="folder to keep what was found in, for a rerun")
+    for command in (places, person):
+        command.add_argument("--model", type=Path, help="MediaPipe's face_landmarker.task")
     options = parser.parse_args()
+    (_landmarks if options.what == "landmarks" else _identity)(options)
+    print(f"wrote {options.out.name}, {options.out.stat().st_size / 1024:.0f} kB")
+    return 0
+
+
+def _landmarks(options: argparse.Namespace) -> None:
     found, places = _finds(people(options.people), model_file(options.model))
     write(options.out, found, places)
     print(f"looked at {len(found)} pictures")
-    print(f"wrote {options.out.name}, {options.out.stat().st_size / 1024:.0f} kB")
-    return 0
+
+
+def _identity(options: argparse.Namespace) -> None:
+    found = sample_rounds(options.heads, model_file(options.model), options.rounds, options.cache)
+    mean = learning.mean_landmarks(found)
+    rows = learning.rows_of(found, mean)
+    learnt, held = learning.learn(rows, mean)
+    learning.write(options.out, learnt)
+    explained = (
+        1.0 - ((held - rows.identity)[:, :10] ** 2).sum() / (rows.identity[:, :10] ** 2).sum()
+    )
+    pictures, persons = len(found["person"]), len(set(found["person"].tolist()))
+    print(f"looked at {pictures} pictures of {persons} people")
+    print(f"{100 * explained:.0f} per cent of the variance of kept-out people's ten first weights")
 
 
 def write(path: Path, found: FloatArray, places: FloatArray) -> None:

@@ -1,0 +1,1 @@
+"""How near faces from photos are to heads that are known: ``python -m benchmarks.accuracy``."""

@@ -1,0 +1,148 @@
+"""Learn the regression of :mod:`pdeface.photo.regression` from samples.
+
+Every sample is taken with its mirror image: half as much chance, and no preference for a side.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from pdeface.controls.measured import IDENTITIES, identities
+from pdeface.files import atomic_path
+from pdeface.photo.build.samples import Numbers
+from pdeface.photo.found import PhotoFace
+from pdeface.photo.regression import Learnt, features, levelled, score_names
+
+__all__ = ["Rows", "learn", "mean_landmarks", "rows_of", "write"]
+
+FloatArray = NDArray[np.float64]
+
+WAYS = 100
+"""Principal ways in which landmarks differ that are looked at."""
+
+RIDGE = 0.05
+"""What squared coefficients cost, where the features have the variance 1; by cross-validation."""
+
+FOLDS = 5
+_AXES = np.array([1.0, -1.0, -1.0])
+_ACROSS = np.array([-1.0, 1.0, 1.0])
+
+
+class Rows(NamedTuple):
+    """Samples as the regression sees them.
+
+    Attributes:
+        marks: (n, 1434) how levelled landmarks differ from their mean.
+        others: (n, f) the other features.
+        identity: (n, 50) the weights to be found.
+        person: (n,) whose they are.
+    """
+
+    marks: FloatArray
+    others: FloatArray
+    identity: FloatArray
+    person: NDArray[np.int64]
+
+
+def mean_landmarks(samples: Numbers) -> FloatArray:
+    """(478, 3) mean of all levelled landmarks, its own mirror image, looking ahead."""
+    left, _, right = np.linalg.svd(samples["pose"][:, :3, :3])
+    marks = samples["landmarks"] * _AXES
+    ahead = np.einsum("nki,nij->nkj", marks - marks.mean(axis=1, keepdims=True), left @ right)
+    mean = np.mean(ahead / np.linalg.norm(ahead, axis=(1, 2), keepdims=True), axis=0)
+    other = partners(mean)
+    for _ in range(4):
+        mean = 0.5 * (mean + mean[other] * _ACROSS)
+        mean = mean / np.linalg.norm(mean)
+        mean = np.mean([levelled(m, mean)[0] for m in marks], axis=0)
+    mean = 0.5 * (mean + mean[other] * _ACROSS)
+    return np.asarray(mean / np.linalg.norm(mean))
+
+
+def partners(mean: FloatArray) -> NDArray[np.int64]:
+    """(n,) which landmark is the mirror image of each."""
+    return np.asarray(cKDTree(mean).query(mean * _ACROSS)[1])
+
+
+def rows_of(samples: Numbers, mean: FloatArray) -> Rows:
+    """All samples, and after them their mirror images."""
+    names = score_names()
+    swapped = [n.replace("Left", "-").replace("Right", "Left").replace("-", "Right") for n in names]
+    order, other = [names.index(name) for name in swapped], partners(mean)
+    marks, others = [], []
+    for mirror in (False, True):
+        for points, scores, focal in zip(
+            samples["landmarks"].astype(np.float64),
+            samples["scores"],
+            samples["focal"],
+            strict=True,
+        ):
+            if mirror:
+                points, scores = points[other] * _ACROSS, scores[order]
+            named = dict(zip(names, scores.tolist(), strict=True))
+            face = PhotoFace(points, named, np.eye(4), (1, 1))
+            shape, rest = features(face, float(focal), mean)
+            marks.append(shape)
+            others.append(rest)
+    weights = samples["identity"][:, :IDENTITIES]
+    identity = np.concatenate([weights, weights * mirror_signs()])
+    return Rows(np.array(marks), np.array(others), identity, np.tile(samples["person"], 2))
+
+
+def mirror_signs() -> FloatArray:
+    """(50,) 1 for modes that are their own mirror image, -1 for those that are its negative."""
+    signs = []
+    for mode in range(IDENTITIES):
+        moved = identities({mode: 1.0}, (28, 46))
+        front = moved[:, : moved.shape[1] // 2]
+        signs.append(np.sign(np.sum(front * front[:, ::-1] * _ACROSS)))
+    return np.array(signs)
+
+
+def learn(rows: Rows, mean: FloatArray) -> tuple[Learnt, FloatArray]:
+    """The regression, and (n, 50) what it says of each sample's person without having seen them."""
+    _, sizes, ways = np.linalg.svd(rows.marks, full_matrices=False)
+    modes = ways[:WAYS] / (sizes[:WAYS, None] / np.sqrt(len(rows.marks)))
+    centre, spread = rows.others.mean(axis=0), rows.others.std(axis=0)
+    spread = np.where(spread > 0.0, spread, 1.0)
+    others = (rows.others - centre) / spread
+    full = np.hstack([np.ones((len(others), 1)), rows.marks @ modes.T, others])
+    blind = full.copy()
+    blind[:, -1] = 0.0
+    readout = np.array([_ridge(x, rows.identity) for x in (blind, full)])
+    held = np.zeros_like(rows.identity)
+    for fold in range(FOLDS):
+        out = rows.person % FOLDS == fold
+        held[out] = full[out] @ _ridge(full[~out], rows.identity[~out])
+    return Learnt(mean, modes, centre, spread, readout, *_agreement(held, rows)), held
+
+
+def _ridge(x: FloatArray, y: FloatArray) -> FloatArray:
+    cost = np.full(x.shape[1], RIDGE * len(x))
+    cost[0] = 0.0
+    return np.asarray(np.linalg.solve(x.T @ x + np.diag(cost + 1e-9), x.T @ y))
+
+
+def _agreement(held: FloatArray, rows: Rows) -> tuple[FloatArray, FloatArray]:
+    """(50, 50) covariances of what is read out of one photo, and between two of one person."""
+    half = len(held) // 2
+    variance = held.T @ held / len(held)
+    pairs = [(i, j) for i in range(half) for j in (i + 1, i + 2)
+             if j < half and rows.person[i] == rows.person[j]]  # fmt: skip
+    one, other = np.array(pairs).T
+    common = held[one].T @ held[other] / len(one)
+    return variance, 0.5 * (common + common.T)
+
+
+def write(path: Path, learnt: Learnt) -> None:
+    """Write what ships."""
+    halves = {"modes": np.float16}
+    numbers = {name: value.astype(halves.get(name, np.float32))
+               for name, value in learnt._asdict().items()}  # fmt: skip
+    with atomic_path(path) as temporary, open(temporary, "wb") as file:
+        np.savez_compressed(file, **numbers)

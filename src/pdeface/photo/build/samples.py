@@ -1,0 +1,106 @@
+"""What MediaPipe finds in pictures of random heads, beside what these are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.photo import _views
+from pdeface.photo.build.heads import HeadSpace
+from pdeface.photo.build.scenes import Scene, photograph, random_scene
+from pdeface.photo.build.skins import random_skin
+from pdeface.photo.found import PhotoFace
+from pdeface.photo.landmarker import faces_in, landmarker
+from pdeface.pictures.raster_vtk import Canvas
+
+__all__ = ["random_expression", "sample"]
+
+FloatArray = NDArray[np.float64]
+Numbers = dict[str, NDArray[Any]]
+
+_EXPRESSIVE = 0.65
+_SMILE = "mouthSmile", "cheekSquint"
+
+
+def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> Numbers:
+    """Landmarks of random heads.
+
+    Args:
+        folder: ICT-FaceKit's, as for :class:`HeadSpace`.
+        model: MediaPipe's face landmarker.
+        count: how many people.
+        views: pictures of each, each of another expression, from another side and in other light.
+        seed: other people for another.
+
+    Returns:
+        Arrays with a row a picture: ``person``, ``identity`` (100 weights), ``expression`` (53),
+        ``landmarks`` (478, 3), ``scores`` (52), ``pose`` (4, 4), ``focal`` (pixels), and
+        ``rotation`` (3, 3) and ``eye`` (3,), the camera's axes and place.
+    """
+    rows: dict[str, list[Any]] = {}
+    with landmarker(model) as detect:
+        for number, face, truth in _pictures(HeadSpace(folder), detect, count, views, seed):
+            found = {
+                "person": number,
+                "landmarks": face.landmarks.astype(np.float32),
+                "scores": np.array([face.scores[name] for name in sorted(face.scores)]),
+                "pose": face.pose,
+                **truth,
+            }
+            for name, value in found.items():
+                rows.setdefault(name, []).append(value)
+    return {name: np.array(values) for name, values in rows.items()}
+
+
+def _pictures(
+    space: HeadSpace, detect: Any, count: int, views: int, seed: int
+) -> Iterator[tuple[int, PhotoFace, Numbers]]:
+    canvas = Canvas()
+    for number in range(count):
+        rng = np.random.default_rng([seed, number])
+        identity = rng.normal(size=space.modes)
+        skin = random_skin(rng)
+        for _ in range(views):
+            expression = random_expression(rng, space.expressions)
+            scene = random_scene(rng)
+            picture = photograph(space.head(identity, expression), skin, scene, canvas)
+            face = found_in(picture, detect)
+            if face is not None:
+                yield number, face, {"identity": identity, "expression": expression, **_seen(scene)}
+
+
+def found_in(picture: NDArray[np.uint8], detect: Any) -> PhotoFace | None:
+    """The face in a picture of one face, looked at alone, as photos are."""
+    whole = _views.View(picture, (0.0, 0.0), (picture.shape[1], picture.shape[0]))
+    for face in faces_in([whole], detect, picture.shape)[:1]:
+        for closer in faces_in([_views.around(face, picture)], detect, picture.shape)[:1]:
+            return closer
+    return None
+
+
+def random_expression(
+    rng: np.random.Generator, names: list[str], expressive: float = _EXPRESSIVE
+) -> FloatArray:
+    """(n,) weights by name: nothing, a smile, or a few anythings, mostly alike on both sides."""
+    weights = dict.fromkeys(names, 0.0)
+    if rng.random() < expressive:
+        if rng.random() < 0.4:
+            strength = rng.uniform(0.2, 1.0)
+            weights |= {f"{n}_{side}": strength for n in _SMILE for side in "LR"}
+            weights["jawOpen"] = rng.uniform(0.0, 0.3)
+        for name in rng.choice(names, rng.integers(0, 4), replace=False):
+            strength, both = rng.uniform(0.0, 0.8), rng.random() < 0.7
+            pair = {name, name[:-2] + ("_R" if name.endswith("_L") else "_L")}
+            weights |= {n: strength for n in (pair if both else {name}) if n in weights}
+    return np.array(list(weights.values()))
+
+
+def _seen(scene: Scene) -> Numbers:
+    camera = scene.camera
+    focal = 0.5 * scene.size[1] / np.tan(0.5 * np.radians(camera.fov))
+    axes = np.stack([camera.right, camera.up, camera.backward])
+    return {"focal": np.array(focal), "rotation": axes, "eye": camera.position}

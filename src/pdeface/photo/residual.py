@@ -1,0 +1,189 @@
+"""What landmarks still differ by, as a smooth displacement of the curves.
+
+Before the photos are seen, a displacement of the curves' points is a Gaussian process: alike in
+neighbours, mostly along the surface, little out of it, and none at the edge of the face. The
+surface is linear in the points and, for small displacements, the photo in the surface; so the
+displacement that is expected once the landmarks are known is linear in what they are off by.
+Along the surface it moves features to where the photos show them, and leaves the shape alone;
+one view says little of what is out of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pdeface.curves import BoundaryCurves, curve_parameters, mirror_points
+from pdeface.face import Face, neutral
+from pdeface.pde.scattered import point_weights
+from pdeface.photo.anchors import anchors
+from pdeface.photo.camera import PARAMETERS, PhotoCamera
+from pdeface.photo.fitting import MESH_LANDMARKS, Fit
+from pdeface.photo.found import PhotoFace
+from pdeface.template import row_u
+
+__all__ = ["FACING", "curve_residual", "facing", "moved"]
+
+FloatArray = NDArray[np.float64]
+
+_ALONG, _OUT = 3.0e-3, 0.35e-3
+"""Standard deviation of a displacement along the surface and out of it, metres."""
+
+_LENGTH = 0.014
+"""Over which it varies, metres."""
+
+_NOISE = 0.008
+"""Of a landmark that is fully believed and faces the camera, eye distances."""
+
+FACING = 0.26
+"""Cosine to the direction of the camera above which a landmark faces it: within 75 degrees."""
+
+_CAMERA = 0.05
+"""Standard deviation of a camera's turn, radians, of its scale and, in eye distances, shift."""
+
+_EDGE = 0.5
+"""Over so many radians of v displacements fade out towards the edge of the face."""
+
+_MESH, _UPRIGHT, _SHRINK, _TRIES = (109, 163), 0.3, 0.7, 8
+
+
+def curve_residual(
+    face: Face, views: Sequence[tuple[PhotoFace, Fit]]
+) -> tuple[FloatArray, tuple[PhotoCamera, ...]]:
+    """(K, M, 3) displacement of the curves of a person at rest, metres, and the cameras moved.
+
+    The cameras may move a little with it, so that what one of them is off by is no displacement.
+
+    Args:
+        face: the person at rest, without it.
+        views: the person's faces in photos, and what was fitted to each.
+    """
+    prior, parts = _prior_root(), []
+    cameras = np.zeros((0, 0))
+    for found, fit in views:
+        eye = found.eye_distance
+        off = found.landmarks[:MESH_LANDMARKS, :2] - fit.camera.project(fit.points)
+        seen = np.maximum(facing(face, fit), _NOISE) * np.sqrt(fit.weight)
+        own = fit.camera.own_moves(fit.points).reshape(PARAMETERS, -1).T / eye
+        cameras = _side_by_side(cameras, own * _camera_sizes(found))
+        parts.append((_slopes(face, fit) / eye, off.ravel() / eye, _NOISE / np.repeat(seen, 2)))
+    rows, off, noise = (np.concatenate(part) for part in zip(*parts, strict=True))
+    slopes = np.hstack([rows @ prior, cameras])
+    normal = slopes @ slopes.T + np.diag(noise**2)
+    best = slopes.T @ np.linalg.solve(normal, off)
+    steps = best[prior.shape[1] :].reshape(len(views), PARAMETERS)
+    half = prior @ best[: prior.shape[1]]
+    return _unfolded(face, half), tuple(
+        fit.camera.stepped(step * _camera_sizes(found))
+        for step, (found, fit) in zip(steps, views, strict=True)
+    )
+
+
+def _camera_sizes(found: PhotoFace) -> FloatArray:
+    """(6,) standard deviation of each of a camera's parameters."""
+    return _CAMERA * np.array([1.0, 1.0, 1.0, 1.0, found.eye_distance, found.eye_distance])
+
+
+def _unfolded(face: Face, half: FloatArray) -> FloatArray:
+    """(K, M, 3) the displacement of these front halves, less of it if it folds the face."""
+    curves, count = face.curves.shape
+    residual = mirror_points(half.reshape(curves, count // 2, 3))
+    for _ in range(_TRIES):
+        if not _folded(face, moved(face, residual)):
+            return residual
+        residual = _SHRINK * residual
+    return np.zeros_like(residual)
+
+
+def _side_by_side(one: FloatArray, other: FloatArray) -> FloatArray:
+    """The two as blocks on a diagonal."""
+    result = np.zeros(np.add(one.shape, other.shape))
+    result[: len(one), : one.shape[1]] = one
+    result[len(one) :, one.shape[1] :] = other
+    return result
+
+
+def facing(face: Face, fit: Fit) -> FloatArray:
+    """(468,) cosine between a landmark's normal and the direction to the camera.
+
+    Where it is 0 and less, the landmark lies on the outline or behind it, and what is found in the
+    photo is the outline, or a guess.
+    """
+    camera = fit.camera
+    eye = camera.distance * camera.rotation[2]
+    towards = eye - fit.points
+    normal = face.surface().normal(*anchors().uv[:MESH_LANDMARKS].T)
+    return np.einsum("ni,ni->n", normal, towards) / np.linalg.norm(towards, axis=1)
+
+
+def moved(face: Face, residual: FloatArray) -> Face:
+    """The face through its curves and their displacement."""
+    curves = face.curves
+    return face.with_curves(BoundaryCurves(curves.points + residual, curves.mirror_z))
+
+
+def _slopes(face: Face, fit: Fit) -> FloatArray:
+    """(936, 3 K M / 2) derivatives of the landmarks' pixels by the front halves of the curves."""
+    axes = np.broadcast_to(np.eye(3)[:, None], (3, MESH_LANDMARKS, 3))
+    by_axis = fit.camera.moves(fit.points, axes)[..., None]
+    weights = _weights(face.curves.shape)[:, :, None]
+    slopes = np.stack([by * weight for by, weight in zip(by_axis, weights, strict=True)], axis=-1)
+    return slopes.reshape(2 * MESH_LANDMARKS, -1)
+
+
+@lru_cache(maxsize=2)
+def _weights(shape: tuple[int, int]) -> FloatArray:
+    """(3, n, K M / 2) weights of the front halves' points in each axis of the landmarks."""
+    u, v = anchors().uv[:MESH_LANDMARKS].T
+    weights = point_weights(shape, u, v).reshape(len(u), *shape)
+    half = shape[1] // 2
+    front, back = weights[:, :, :half], weights[:, :, half:][:, :, ::-1]
+    both, across = ((front + sign * back).reshape(len(u), -1) for sign in (1.0, -1.0))
+    return np.stack([both, both, across])
+
+
+@lru_cache(maxsize=1)
+def _prior_root() -> FloatArray:
+    """(3 K M / 2, m) a root of the covariance of the front halves' displacement.
+
+    That of the neutral face: another person's hardly differs.
+    """
+    face = neutral()
+    curves, count = face.curves.shape
+    half = count // 2
+    v = curve_parameters(count)[:half]
+    u = np.linspace(0.0, 1.0, curves)
+    points = face.curves.points[:, :half].reshape(-1, 3)
+    normal = face.surface().normal(*(x.ravel() for x in np.meshgrid(u, v, indexing="ij")))
+    values, ways = np.linalg.eigh(_alike(points))
+    keep = values > 1e-3 * values[-1]
+    root = ways[:, keep] * np.sqrt(values[keep])
+    fade = np.tile(_fade(v), curves)[:, None, None]
+    out = normal[:, :, None] * normal[:, None, :]
+    sizes = fade * (_ALONG * (np.eye(3) - out) + _OUT * out)
+    return np.asarray(np.einsum("pab,pm->pamb", sizes, root).reshape(3 * len(points), -1))
+
+
+def _alike(points: FloatArray) -> FloatArray:
+    """(n, n) correlations, by a Gaussian of the distance."""
+    square = (points**2).sum(axis=1)
+    apart = square[:, None] + square - 2.0 * points @ points.T
+    return np.asarray(np.exp(-0.5 * np.maximum(apart, 0.0) / _LENGTH**2))
+
+
+def _fade(v: FloatArray) -> FloatArray:
+    away = np.clip(np.minimum(v, np.pi - v) / _EDGE, 0.0, 1.0)
+    return np.asarray(away**2 * (3.0 - 2.0 * away))
+
+
+def _folded(before: Face, after: Face) -> bool:
+    """Whether the surface has turned over anywhere, but between the lips, which touch."""
+    one, other = (
+        face.mesh(*_MESH, openings="none").normals.reshape(*_MESH, 3) for face in (before, after)
+    )
+    row = np.linspace(0.0, 1.0, _MESH[0])
+    lips = (row_u("upper_lip_border") < row) & (row < row_u("lower_lip_border"))
+    return bool(np.einsum("uvi,uvi->uv", one, other)[~lips].min() < _UPRIGHT)

@@ -1,0 +1,80 @@
+"""The regression finds what it was taught, levels what is tilted, and treats both sides alike."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("scipy", reason="needs the extra 'template'")
+
+from pdeface.photo import portrait_face
+from pdeface.photo.build import learning
+from pdeface.photo.build.learning import Rows, learn, mirror_signs, partners, write
+from pdeface.photo.regression import Learnt, expected_identity, features, learnt, levelled
+
+
+def test_what_ships_has_the_shapes_it_says() -> None:
+    known = learnt()
+    ways, others = len(known.modes), len(known.centre)
+    assert known.mean.shape == (478, 3)
+    assert known.modes.shape == (ways, 3 * 478)
+    assert known.readout.shape == (2, 1 + ways + others, 50)
+    assert known.variance.shape == known.common.shape == (50, 50)
+    assert np.linalg.eigvalsh(known.variance).min() > 0.0
+
+
+def test_levelling_undoes_turn_size_and_place() -> None:
+    mean, angle = learnt().mean, 0.3
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    marks, back, size = levelled(7.0 * mean @ turn + (3.0, 2.0, 1.0), mean)
+    np.testing.assert_allclose(marks, mean - mean.mean(axis=0), atol=1e-9)
+    np.testing.assert_allclose(turn @ back, np.eye(3), atol=1e-9)
+    assert size == pytest.approx(7.0)
+
+
+def test_turning_or_enlarging_a_photo_changes_nothing() -> None:
+    face = portrait_face()
+    turned = face.landmarks.copy()
+    turned[:, :2] = 2.0 * turned[:, :2] @ ((0.0, 1.0), (-1.0, 0.0))
+    turned[:, 2] *= 2.0
+    same = replace(face, landmarks=turned)
+    one, other = (expected_identity([f], [None]) for f in (face, same))
+    np.testing.assert_allclose(one, other, atol=1e-6)
+
+
+def test_a_mirrored_photo_is_of_the_mirrored_person() -> None:
+    face, other = portrait_face(), partners(learnt().mean)
+    scores = {n.replace("Left", "-").replace("Right", "Left").replace("-", "Right"): v
+              for n, v in face.scores.items()}  # fmt: skip
+    image = replace(face, landmarks=face.landmarks[other] * (-1.0, 1.0, 1.0), scores=scores)
+    found, mirrored = (expected_identity([f], [None]) for f in (face, image))
+    np.testing.assert_allclose(mirrored, found * mirror_signs(), atol=0.05)
+
+
+def test_what_depends_on_landmarks_linearly_is_learnt(monkeypatch, tmp_path) -> None:
+    """From people whose landmarks tell six of their weights, of people kept out."""
+    rng = np.random.default_rng(0)
+    monkeypatch.setattr(learning, "RIDGE", 1e-4)
+    identity = rng.normal(size=(600, 50))
+    ways = rng.normal(size=(6, 3 * 478)) / 500.0
+    others = rng.normal(size=(600, 58))
+    rows = Rows(identity[:, :6] @ ways, others, identity, np.arange(600) // 2)
+    monkeypatch.setattr(learning, "WAYS", 6)
+    found, held = learn(rows, learnt().mean)
+    told = 1.0 - ((held - identity) ** 2).mean(axis=0)
+    assert told[:6].min() > 0.95
+    assert told[6:].max() < 0.1
+    write(tmp_path / "identity.npz", found)
+    with np.load(tmp_path / "identity.npz") as file:
+        assert set(file.files) == set(Learnt._fields)
+
+
+def test_a_longer_lens_is_told_by_its_feature_alone() -> None:
+    face, mean = portrait_face(), learnt().mean
+    (near, one), (far, other) = (features(face, focal, mean) for focal in (300.0, 900.0))
+    np.testing.assert_array_equal(near, far)
+    np.testing.assert_array_equal(one[:-1], other[:-1])
+    assert one[-1] == pytest.approx(3.0 * other[-1])
