@@ -16,6 +16,9 @@ import pdeface
 
 DENSE, SPACING = (217, 325), 1e-3
 ROUNDS, FAR = 12, 0.02
+HELD = 1e-4
+"""How much a step of the alignment is held back, so that a flat region does not slide away."""
+
 SEVEN = (36, 39, 42, 45, 33, 48, 54)
 """The seven landmarks among the 68 of Multi-PIE, counted from 0."""
 
@@ -91,7 +94,8 @@ class Score:
             middle = points.mean(axis=0)
             slopes = np.hstack([np.cross(points[use] - middle, normal), normal])
             off = np.einsum("ni,ni->n", near - points[use], normal)
-            step = np.linalg.lstsq(slopes, off, rcond=None)[0]
+            held = HELD * use.sum() * np.array([1e-2, 1e-2, 1e-2, 1e2, 1e2, 1e2])
+            step = np.linalg.solve(slopes.T @ slopes + np.diag(held), slopes.T @ off)
             points = (points - middle) @ rotation(step[:3]).T + middle + step[3:]
         return points
 

@@ -29,13 +29,13 @@ __all__ = ["FACING", "curve_residual", "facing", "moved"]
 
 FloatArray = NDArray[np.float64]
 
-_ALONG, _OUT = 3.0e-3, 0.35e-3
+_ALONG, _OUT = 3.0e-3, 0.25e-3
 """Standard deviation of a displacement along the surface and out of it, metres."""
 
-_LENGTH = 0.014
+_LENGTH = 0.017
 """Over which it varies, metres."""
 
-_NOISE = 0.008
+_NOISE = 0.006
 """Of a landmark that is fully believed and faces the camera, eye distances."""
 
 FACING = 0.26
@@ -44,8 +44,8 @@ FACING = 0.26
 _CAMERA = 0.05
 """Standard deviation of a camera's turn, radians, of its scale and, in eye distances, shift."""
 
-_EDGE = 0.5
-"""Over so many radians of v displacements fade out towards the edge of the face."""
+_END, _EDGE = 0.15, 0.5
+"""Over so much of u, and so many radians of v, displacements fade out towards the face's edge."""
 
 _MESH, _UPRIGHT, _SHRINK, _TRIES = (109, 163), 0.3, 0.7, 8
 
@@ -66,7 +66,7 @@ def curve_residual(
     for found, fit in views:
         eye = found.eye_distance
         off = found.landmarks[:MESH_LANDMARKS, :2] - fit.camera.project(fit.points)
-        seen = np.maximum(facing(face, fit), _NOISE) * np.sqrt(fit.weight)
+        seen = np.maximum(facing(face, fit), _NOISE) ** 2 * np.sqrt(fit.weight)
         own = fit.camera.own_moves(fit.points).reshape(PARAMETERS, -1).T / eye
         cameras = _side_by_side(cameras, own * _camera_sizes(found))
         parts.append((_slopes(face, fit) / eye, off.ravel() / eye, _NOISE / np.repeat(seen, 2)))
@@ -161,7 +161,7 @@ def _prior_root() -> FloatArray:
     values, ways = np.linalg.eigh(_alike(points))
     keep = values > 1e-3 * values[-1]
     root = ways[:, keep] * np.sqrt(values[keep])
-    fade = np.tile(_fade(v), curves)[:, None, None]
+    fade = np.outer(_fade(u, 1.0, _END), _fade(v, np.pi, _EDGE)).reshape(-1, 1, 1, 1)[:, 0]
     out = normal[:, :, None] * normal[:, None, :]
     sizes = fade * (_ALONG * (np.eye(3) - out) + _OUT * out)
     return np.asarray(np.einsum("pab,pm->pamb", sizes, root).reshape(3 * len(points), -1))
@@ -174,8 +174,9 @@ def _alike(points: FloatArray) -> FloatArray:
     return np.asarray(np.exp(-0.5 * np.maximum(apart, 0.0) / _LENGTH**2))
 
 
-def _fade(v: FloatArray) -> FloatArray:
-    away = np.clip(np.minimum(v, np.pi - v) / _EDGE, 0.0, 1.0)
+def _fade(at: FloatArray, end: float, reach: float) -> FloatArray:
+    """0 at 0 and at the end, 1 from ``reach`` on."""
+    away = np.clip(np.minimum(at, end - at) / reach, 0.0, 1.0)
     return np.asarray(away**2 * (3.0 - 2.0 * away))
 
 
