@@ -86,6 +86,8 @@ export const api = {
   photoUrl: (id: string) => `/api/photos/${encodeURIComponent(id)}`,
   warp: async (id: string, points: Record<string, readonly number[]>) =>
     (await post(`/api/photos/${encodeURIComponent(id)}/warp`, { points })).blob(),
+  pointsFile: async (id: string, points: Record<string, readonly number[]>) =>
+    (await post(`/api/photos/${encodeURIComponent(id)}/points`, { points })).blob(),
   applyPhoto: (id: string, faceId: string, points: Record<string, readonly number[]>) =>
     json<FaceInfo>(post(`/api/photos/${encodeURIComponent(id)}/apply`, { face: faceId, points })),
 };

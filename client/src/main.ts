@@ -30,7 +30,8 @@ async function start(): Promise<void> {
   const left = own ?? lastSession();
   const opened: Step = { label: "Opened", doc: { face: first.id, name: first.name, weights: first.weights } };
   const timeline = own ? new Timeline(own.steps, own.at) : new Timeline([opened]);
-  const viewer = new Viewer(stage);
+  const viewer = new Viewer(stage, () =>
+    toast(new Error("the browser can no longer draw in 3D; reload the page, your work is kept")));
   const studio = new Studio(schema, timeline, viewer);
   const tools = new Tools(studio, stage);
   const panel = new Panel(studio, document.getElementById("panel")!);
@@ -78,6 +79,7 @@ async function start(): Promise<void> {
     { keys: "f", what: "Fit", act: () => viewer.fit() },
     { keys: "p", what: "Perspective or orthographic", act: () => tools.projection() },
     { keys: "m", what: "Next way of showing", act: () => tools.nextMode() },
+    { keys: "b", what: "Before and after", act: () => studio.compare(!studio.comparing) },
     { keys: "c", what: "Boundary curves on top", act: () => tools.curves() },
     { keys: "y", what: "Symmetry", act: () => panel.toggleSymmetry() },
     { keys: "r", what: "Random face", act: () => panel.randomFace() },
@@ -105,8 +107,20 @@ async function start(): Promise<void> {
   else if (left && worthIt(left)) offer(left, timeline);
   Object.assign(window, { studio, viewer, motion, handles, files, api });
   await studio.load();
+  welcome(() => help(shortcuts));
   await studio.keepCurrent();
   keep();
+}
+
+const SEEN = "pdeface.studio.1.seen";
+
+// Once: where to begin.
+function welcome(more: () => void): void {
+  if (localStorage.getItem(SEEN)) return;
+  localStorage.setItem(SEEN, "yes");
+  toast("Drag the face to turn it, move a slider to shape it, drop a photo to make it yours.", {
+    label: "More", act: more,
+  });
 }
 
 function worthIt({ steps }: Session): boolean {

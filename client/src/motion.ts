@@ -1,7 +1,9 @@
 // Motion: a clip over the face, played, scrubbed, looped, faster or slower.
 
 import { api, type Packet, type Weights } from "./api";
+import { download, fileName } from "./dialogs";
 import { h } from "./dom";
+import { recorded } from "./film";
 import { icon } from "./icons";
 import type { ClipInfo } from "./schema";
 import type { Studio } from "./studio";
@@ -19,6 +21,8 @@ export class Motion {
   #asked = 0;
   #rest: Weights = {};
   #lacks: Packet | null = null;
+  // Told when a recording has been played to its end.
+  #ended: (() => void) | null = null;
   // Clips that came as files, by name.
   #own = new Map<string, ClipInfo>();
   #bar: HTMLElement;
@@ -47,9 +51,13 @@ export class Motion {
       this.pause();
       this.seek(this.#scrub.valueAsNumber * this.duration);
     });
+    const film = h("button", {
+      class: "icon-only", id: "film", title: "Record as a film (WebM)", "aria-label": "Record",
+      onclick: () => void this.record(),
+    }, icon("record"));
     const close = h("button", { class: "icon-only", title: "Stop and close", "aria-label": "Close motion", onclick: () => this.close() }, icon("close"));
     this.#bar = h("div", { class: "float player", role: "group", "aria-label": "Motion", hidden: true },
-      this.#play, this.#choice, this.#scrub, this.#clock, speed, loop, close);
+      this.#play, this.#choice, this.#scrub, this.#clock, speed, loop, film, close);
     stage.append(this.#bar);
     studio.addEventListener("change", () => this.#restart());
     this.#show();
@@ -101,9 +109,15 @@ export class Motion {
     this.#show();
   }
 
+  #finish(): void {
+    this.#ended?.();
+    this.#ended = null;
+  }
+
   pause(): void {
     this.playing = false;
     cancelAnimationFrame(this.#asked);
+    this.#finish();
     this.#show();
   }
 
@@ -121,6 +135,23 @@ export class Motion {
     this.studio.head?.pivot.rotation.set(0, 0, 0);
     this.studio.head?.morph.setExtra(null);
     this.studio.redraw();
+  }
+
+  // Plays once from the beginning and keeps what the stage shows.
+  async record(): Promise<void> {
+    const { clip, studio } = this;
+    if (!clip || this.#ended) return;
+    try {
+      const film = await recorded(studio.viewer, () => new Promise((ended) => {
+        this.#ended = ended;
+        this.seek(0);
+        this.play();
+      }));
+      download(film, fileName(`${studio.doc.name}-${clip.name}`, ".webm"));
+    } catch (error) {
+      this.#ended = null;
+      toast(error);
+    }
   }
 
   #take(clip: ClipInfo): void {
@@ -162,7 +193,7 @@ export class Motion {
     this.time += (this.#speed * Math.max(0, now - this.#before)) / 1000;
     this.#before = now;
     if (this.time >= this.duration) {
-      if (this.#loop) this.time %= Math.max(this.duration, 0.001);
+      if (this.#loop && !this.#ended) this.time %= Math.max(this.duration, 0.001);
       else {
         this.time = this.duration;
         this.playing = false;
@@ -171,6 +202,7 @@ export class Motion {
     this.#pose();
     this.#show();
     if (this.playing) this.#asked = requestAnimationFrame((next) => this.#step(next));
+    else this.#finish();
   }
 
   #pose(): void {

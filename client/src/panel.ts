@@ -95,6 +95,7 @@ export class Panel {
         studio.commit(preset.label, { ...zero, ...preset.weights });
       });
       children.push(choice, button("Reset expression", reset(["expression"], "Reset expression")));
+      if (!studio.symmetric) children.push(button("L to R", () => this.#copy(), "Copy the left side to the right"));
     } else {
       children.push(
         button("Random face", () => studio.commit("Random face", this.#random()), "Someone new (R)", "dice"),
@@ -107,6 +108,14 @@ export class Panel {
       onclick: () => this.toggleSymmetry(),
     }, icon("symmetry"));
     this.#foot.replaceChildren(...children, symmetry);
+  }
+
+  #copy(): void {
+    const changes: Record<string, number> = {};
+    for (const { name, mirror } of this.studio.schema.controls) {
+      if (mirror && name.endsWith("Left")) changes[mirror] = this.studio.doc.weights[name] ?? 0;
+    }
+    this.studio.commit("Copy left to right", changes);
   }
 
   toggleSymmetry(): void {

@@ -2,7 +2,7 @@
 // five steps make of them is shown beside it at once.
 
 import { api } from "./api";
-import { dialog } from "./dialogs";
+import { dialog, download, fileName } from "./dialogs";
 import { clamp, h, settled } from "./dom";
 import type { PhotoInfo, PhotoPoint } from "./schema";
 import type { Studio } from "./studio";
@@ -50,18 +50,19 @@ class PhotoDesk {
     stage.style.setProperty("--aspect", String(width / height));
     const apply = h("button", { class: "primary", id: "apply" }, "Use this texture");
     const reset = h("button", { onclick: () => this.#reset() }, "Points as found");
+    const keep = h("button", { onclick: () => void this.#keep() }, "Save points");
     const box = dialog("Photo and its points", "desk",
       h("div", { class: "sides" }, stage,
         h("div", { class: "made" }, this.#texture, this.#name,
           h("p", {}, "The texture by the paper's five steps. It is pinned to (u, v): any shape and any expression wears it."))),
-      h("footer", {}, reset, apply));
+      h("footer", {}, keep, h("span", { class: "space" }), reset, apply));
     apply.addEventListener("click", () => void this.#apply(box));
     this.#place();
     void this.#show();
   }
 
   #addMark(name: string, radius: number): void {
-    const mark = svg("circle", { r: radius, tabindex: 0, role: "slider", "aria-label": name.replaceAll("_", " "), "data-point": name });
+    const mark = svg("circle", { r: radius, tabindex: 0, role: "button", "aria-label": name.replaceAll("_", " "), "data-point": name });
     mark.addEventListener("pointerdown", (event) => this.#grab(name, mark, event as PointerEvent));
     mark.addEventListener("keydown", (event) => this.#nudge(name, event as KeyboardEvent));
     mark.addEventListener("focus", () => (this.#name.textContent = name.replaceAll("_", " ")));
@@ -167,6 +168,15 @@ class PhotoDesk {
       this.#name.textContent = (error as Error).message;
     } finally {
       this.#busy = false;
+    }
+  }
+
+  async #keep(): Promise<void> {
+    try {
+      const file = await api.pointsFile(this.photo.id, this.#chosen);
+      download(file, fileName(`${this.studio.doc.name}-points`, ".json"));
+    } catch (error) {
+      toast(error);
     }
   }
 

@@ -18,6 +18,8 @@ export class Studio extends EventTarget {
   info!: FaceInfo;
   // A motion moves the face: the document's own expressions wait.
   performing = false;
+  // The face as it was opened is shown instead.
+  comparing = false;
   // A handle is held: what the server says of the face without it would be a step back.
   holding = false;
   #shown = "";
@@ -42,6 +44,11 @@ export class Studio extends EventTarget {
     return this.timeline.doc;
   }
 
+  // The id of the face on the stage: behind the document's while another is loaded.
+  get shown(): string {
+    return this.#shown;
+  }
+
   get head(): Head | null {
     return this.viewer.head;
   }
@@ -54,6 +61,7 @@ export class Studio extends EventTarget {
   }
 
   preview(changes: Weights): void {
+    if (this.comparing) this.compare(false);
     this.timeline.preview(withWeights(this.timeline.doc, changes));
   }
 
@@ -164,8 +172,17 @@ export class Studio extends EventTarget {
   // The face as the document says, drawn with the next frame.
   redraw(): boolean {
     if (this.timeline.doc.face !== this.#shown) return false;
-    if (!this.performing) this.perform(this.timeline.doc.weights);
+    if (!this.performing && !this.comparing) this.perform(this.timeline.doc.weights);
     return true;
+  }
+
+  // Before and after: the weights with which this face was opened, until it is told otherwise.
+  compare(before: boolean): void {
+    const first = this.timeline.steps.find(({ doc }) => doc.face === this.timeline.doc.face);
+    this.comparing = before && first !== undefined;
+    if (this.comparing) this.perform(first!.doc.weights);
+    else this.redraw();
+    this.dispatchEvent(new Event("shown-otherwise"));
   }
 
   // The face at other weights than the document's, as a motion has them.

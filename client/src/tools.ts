@@ -17,6 +17,7 @@ export class Tools {
   #modes = new Map<Mode, HTMLButtonElement>();
   #curves: HTMLButtonElement;
   #projection: HTMLButtonElement;
+  #compare: HTMLButtonElement;
   #density: HTMLSelectElement;
 
   constructor(
@@ -36,8 +37,12 @@ export class Tools {
     }
     this.#curves = h("button", { class: "icon-only", title: "Boundary curves on top (C)", "aria-label": "Boundary curves on top", onclick: () => this.curves() }, icon("curves"));
     this.#projection = h("button", { class: "icon-only", title: "Perspective or orthographic (P)", "aria-label": "Orthographic", onclick: () => this.projection() }, icon("projection"));
+    this.#compare = h("button", {
+      class: "icon-only", title: "Before and after (B)", "aria-label": "Before and after",
+      onclick: () => studio.compare(!studio.comparing),
+    }, icon("compare"));
     const fit = h("button", { class: "icon-only", title: "Fit (F)", "aria-label": "Fit", onclick: () => viewer.fit() }, icon("fit"));
-    views.append(h("span", { class: "rule" }), fit, this.#projection, this.#curves);
+    views.append(h("span", { class: "rule" }), fit, this.#projection, this.#curves, this.#compare);
     this.#density = h("select", { "aria-label": "Density of the mesh", id: "density", title: "Density of the mesh" },
       ...schema.densities.map(({ label }, i) => h("option", { value: i }, label)));
     this.#density.value = String(schema.densities.findIndex((d) => d.rows === studio.size.rows));
@@ -45,7 +50,7 @@ export class Tools {
       void studio.setSize(schema.densities[Number(this.#density.value)]!));
     modes.append(h("span", { class: "rule" }), this.#density);
     stage.append(views, modes);
-    studio.addEventListener("shown", () => this.#show());
+    for (const moment of ["shown", "shown-otherwise"]) studio.addEventListener(moment, () => this.#show());
     this.#show();
   }
 
@@ -83,6 +88,7 @@ export class Tools {
       button.setAttribute("aria-pressed", String(name === (display?.mode ?? "textured")));
     }
     this.#curves.setAttribute("aria-pressed", String(display?.overlay ?? false));
+    this.#compare.setAttribute("aria-pressed", String(this.studio.comparing));
     this.#projection.setAttribute("aria-pressed", String(orthographic));
   }
 }

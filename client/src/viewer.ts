@@ -37,6 +37,8 @@ export class Viewer {
   head: Head | null = null;
   camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
   frames = 0;
+  // On its way to another view.
+  moving = false;
   #perspective = new THREE.PerspectiveCamera(FIELD, 1, 0.02, 10);
   #orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.02, 10);
   #asked = 0;
@@ -44,7 +46,11 @@ export class Viewer {
   #radius = 0.14;
   #animation = 0;
 
-  constructor(private stage: HTMLElement) {
+  // onLost: the graphics card has given up, so that nothing would be seen.
+  constructor(
+    private stage: HTMLElement,
+    onLost: () => void,
+  ) {
     this.canvas = document.createElement("canvas");
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("aria-label", "The face in 3D: drag to turn, wheel to zoom");
@@ -60,6 +66,12 @@ export class Viewer {
     this.controls.maxDistance = 3;
     this.controls.addEventListener("change", () => this.draw());
     light(this.scene, this.renderer);
+    this.canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      onLost();
+    });
+    this.canvas.addEventListener("webglcontextrestored", () => this.draw());
+    this.renderer.debug.onShaderError = () => onLost();
     new ResizeObserver(() => this.#resize()).observe(stage);
     this.#resize();
   }
@@ -172,6 +184,7 @@ export class Viewer {
 
   #turnTo(azimuth: number, height: number, distance: number, target: THREE.Vector3, gently: boolean) {
     cancelAnimationFrame(this.#animation);
+    this.moving = false;
     if (!gently || matchMedia("(prefers-reduced-motion: reduce)").matches) {
       this.#place(azimuth, height, distance, target);
       return;
@@ -189,8 +202,10 @@ export class Viewer {
         mix(from.radius, distance),
         start.clone().lerp(target, s),
       );
-      if (t < 1) this.#animation = requestAnimationFrame(step);
+      this.moving = t < 1;
+      if (this.moving) this.#animation = requestAnimationFrame(step);
     };
+    this.moving = true;
     this.#animation = requestAnimationFrame(step);
   }
 

@@ -45,25 +45,25 @@ try {
   const page = await browser.newPage({ viewport: { width: 1000, height: 640 } });
   page.setDefaultTimeout(90_000);
   const complaints = [];
-  let away = false;
+  let expected = false;
   page.on("pageerror", (error) => complaints.push(String(error.stack ?? error)));
   page.on("console", (message) => {
-    // Chromium itself complains of a server that is gone, which one test wants.
-    if (["error", "warning"].includes(message.type()) && !away) complaints.push(message.text());
+    // Chromium itself complains of refusals and of a server that is gone, which some flows want.
+    if (["error", "warning"].includes(message.type()) && !expected) complaints.push(message.text());
   });
   page.on("request", (request) => {
     const url = request.url();
     if (!url.startsWith(home) && !/^(data|blob):/.test(url)) complaints.push(`asked for ${url}`);
   });
   const gone = async (work) => {
-    away = true;
+    expected = true;
     await stop();
     const result = await work();
     await serve(port);
     return result;
   };
   await page.goto(home);
-  const report = await flows(page, { folder, gone, returned: () => (away = false) });
+  const report = await flows(page, { folder, gone, expecting: (value) => (expected = value) });
   console.log(JSON.stringify({ ...report, complaints }));
 } finally {
   await browser.close();

@@ -1,10 +1,11 @@
 // What a person does in the studio, one flow after the other, and what is seen of it.
+import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 
 // Of 256 levels of a colour: what a change must reach to be seen.
 const VISIBLE = 8;
 
-export async function flows(page, { folder, gone, returned }) {
+export async function flows(page, { folder, gone, expecting }) {
   const report = {};
   const timed = async (name, flow) => {
     const began = Date.now();
@@ -23,9 +24,12 @@ export async function flows(page, { folder, gone, returned }) {
   await timed("motion", () => motion(page));
   await timed("sculpt", () => sculpt(page));
   await timed("photo", () => photo(page));
-  await timed("files", () => files(page, folder));
+  await timed("barriers", () => barriers(page));
+  await timed("shown", () => shown(page, folder));
+  await timed("files", () => files(page, folder, expecting));
   await timed("alone", () => alone(page, gone));
-  returned();
+  expecting(false);
+  await timed("lost", () => lost(page));
   await timed("recovered", () => recovered(page));
   return report;
 }
@@ -55,11 +59,14 @@ function help(visible) {
   // The server has said where the face is at the weights of the document.
   window.exact = () => {
     const anchor = studio.head.morph.anchorWeights;
+    if (studio.shown !== studio.doc.face || !studio.head.morph.ready) return false;
     return JSON.stringify(anchor) === JSON.stringify(studio.doc.weights);
   };
 }
 
 const settle = (page) => page.waitForFunction(() => exact(), null, { polling: 30 });
+
+const arrived = (page) => page.waitForFunction(() => !viewer.moving, null, { polling: 30 });
 
 async function modes(page) {
   const found = {};
@@ -84,14 +91,14 @@ async function views(page) {
   for (const [key, name] of [["1", "front"], ["3", "profile"], ["ArrowLeft", "turned"], ["+", "nearer"]]) {
     await page.evaluate(() => (window.before = pixels()));
     await page.keyboard.press(key);
-    await page.waitForTimeout(600);
+    await arrived(page);
     found[name] = await page.evaluate(() => changed(before, pixels()));
   }
   await page.keyboard.press("p");
   found.orthographic = await page.evaluate(() => viewer.orthographic);
   await page.keyboard.press("p");
   await page.keyboard.press("1");
-  await page.waitForTimeout(600);
+  await arrived(page);
   const canvas = await page.locator("canvas").first().boundingBox();
   const middle = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
   await page.evaluate(() => (window.before = pixels()));
@@ -101,7 +108,7 @@ async function views(page) {
   await page.mouse.up();
   found.dragged = await page.evaluate(() => changed(before, pixels()));
   await page.keyboard.press("1");
-  await page.waitForTimeout(600);
+  await arrived(page);
   return found;
 }
 
@@ -270,7 +277,7 @@ async function photo(page) {
   return found;
 }
 
-async function files(page, folder) {
+async function files(page, folder, expecting) {
   const found = {};
   const download = async (name, act) => {
     const [coming] = await Promise.all([page.waitForEvent("download"), act()]);
@@ -293,7 +300,9 @@ async function files(page, folder) {
     await files.take(new File([file], "cy.pdeface"));
   });
   found.opened = await page.evaluate(() => [studio.doc.name, studio.doc.weights]);
+  expecting(true);
   await page.evaluate(() => files.take(new File(["<html>"], "face.png")));
+  expecting(false);
   found.refused = await page.locator(".toast.bad").last().textContent();
   await page.evaluate(() => files.take(new File(["Timecode,BlendshapeCount,JawOpen\n00:00:01:00.000,61,0\n00:00:01:30.000,61,1\n"], "take.csv")));
   found.recording = await page.evaluate(() => [motion.clip.name, motion.duration]);
@@ -309,12 +318,68 @@ async function alone(page, gone) {
     studio.preview({ noseLength: 1, jawOpen: 0.8 });
     studio.commit("Alone");
     await new Promise((done) => setTimeout(done, 600));
-    return { moved: changed(before, pixels()), told: document.querySelector(".toast.bad")?.textContent };
+    return { moved: changed(before, pixels()), told: [...document.querySelectorAll(".toast.bad")].at(-1)?.textContent };
   }));
   await page.evaluate(() => studio.commit("Together", { noseLength: 0.5 }));
   await settle(page);
   found.weights = await page.evaluate(() => ({ ...studio.doc.weights }));
   return found;
+}
+
+// What a program that looks for barriers finds to be serious, in every screen and both themes.
+async function barriers(page) {
+  const source = await readFile(join(import.meta.dirname, "../../client/node_modules/axe-core/axe.min.js"), "utf8");
+  await page.evaluate(source);
+  const found = [];
+  const look = async (where) => {
+    const { violations, passes } = await page.evaluate(() => axe.run());
+    const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+    for (const { id, nodes } of serious) found.push(`${where}: ${id} ${nodes.map((n) => n.html.slice(0, 90)).slice(0, 3)}`);
+    return passes.length;
+  };
+  const passed = await look("page");
+  await page.keyboard.press("l");
+  await look("page in the other theme");
+  await page.getByRole("button", { name: "Export", exact: true }).click();
+  await look("export");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("l");
+  await page.getByRole("button", { name: "Photo" }).click();
+  await page.locator("circle[data-point=nose_tip]").waitFor();
+  await look("photo");
+  await page.keyboard.press("Escape");
+  return { passed, found };
+}
+
+// Before and after, and a clip as a film.
+async function shown(page, folder) {
+  await page.evaluate(() => studio.commit("Long nose", { noseLength: 1 }));
+  await settle(page);
+  await page.evaluate(() => (window.before = pixels()));
+  await page.keyboard.press("b");
+  const found = { compared: await page.evaluate(() => changed(before, pixels())) };
+  await page.keyboard.press("b");
+  found.back = await page.evaluate(() => changed(before, pixels()));
+  await page.getByRole("button", { name: "Motion" }).click();
+  await page.locator("#clip").selectOption("blink");
+  const [film] = await Promise.all([page.waitForEvent("download"), page.locator("#film").click()]);
+  await film.saveAs(join(folder, "blink.webm"));
+  await page.getByRole("button", { name: "Close motion" }).click();
+  await page.keyboard.press("Control+z");
+  await settle(page);
+  return found;
+}
+
+// The graphics card gives up: the page says so, and draws again when it is back.
+async function lost(page) {
+  await page.evaluate(() => (window.before = pixels()));
+  await page.evaluate(() => viewer.renderer.forceContextLoss());
+  const line = page.locator(".toast.bad", { hasText: "no longer draw" });
+  await line.waitFor();
+  await page.evaluate(() => viewer.renderer.forceContextRestore());
+  await page.waitForFunction(() => !viewer.renderer.getContext().isContextLost(), null, { polling: 50 });
+  await page.waitForTimeout(300);
+  return { told: true, back: await page.evaluate(() => changed(before, pixels())) };
 }
 
 async function recovered(page) {

@@ -140,6 +140,9 @@ def test_a_photo_becomes_a_face(client, sent, shared_data, monkeypatch) -> None:
     path = f"/api/photos/{done['photo']['id']}"
     assert client.get(path).headers["content-type"].startswith("image/")
     assert client.post(f"{path}/warp", json={"points": points}).content.startswith(b"\xff\xd8")
+    kept = json.loads(client.post(f"{path}/points", json={"points": points}).content)
+    assert kept["format"] == "pdeface-points"
+    assert kept["points"]["nose_tip"] == pytest.approx(points["nose_tip"], abs=0.01)
     wrong = {name: [5.0, 5.0] for name in points}
     assert client.post(f"{path}/warp", json={"points": wrong}).status_code == 422
     face = {"face": done["face"]["id"], "points": points}

@@ -178,6 +178,19 @@ def test_points_of_a_photo_make_a_texture(report) -> None:
     assert photo["seen"] > 5000
 
 
+def test_no_serious_barrier_is_found(report) -> None:
+    assert report["barriers"]["passed"] > 15
+    assert report["barriers"]["found"] == []
+
+
+def test_before_and_after_and_a_film(report, folder: Path) -> None:
+    assert report["shown"]["compared"] > SEEN
+    assert report["shown"]["back"] == 0
+    film = (folder / "blink.webm").read_bytes()
+    assert film.startswith(b"\x1a\x45\xdf\xa3")
+    assert len(film) > 2000
+
+
 def test_saved_and_exported_files_are_what_was_shown(report, folder: Path) -> None:
     files = report["files"]
     assert (files["saved"], files["glb"], files["still"]) == ("Ada.pdeface", "Ada.glb", "Ada.png")
@@ -203,6 +216,10 @@ def test_sliders_live_on_without_the_server_and_it_is_told_anew(report) -> None:
     assert alone["moved"] > SEEN
     assert "start pdeface studio again" in alone["told"]
     assert alone["weights"]["noseLength"] == 0.5
+
+
+def test_a_lost_graphics_card_is_told_of_and_comes_back(report) -> None:
+    assert report["lost"] == {"told": True, "back": 0}
 
 
 def test_a_reload_loses_nothing(report) -> None:

@@ -6,6 +6,8 @@ import io
 import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -111,6 +113,13 @@ class PhotoDesk:
         texture = uv_texture(photo.pixels, _points(photo.info, points)).image
         return face.with_texture(texture)
 
+    def points_file(self, key: str, points: Any) -> bytes:
+        """The points as a file that ``pdeface make --points`` reads."""
+        with TemporaryDirectory(prefix="pdeface-") as folder:
+            path = Path(folder) / "points.json"
+            _points(self._photos.get(key).info, points).save(path)
+            return path.read_bytes()
+
     def _kept(self, pixels: Pixels, points: FeaturePoints | None, notes: list[str]) -> PhotoInfo:
         places: Mapping[str, Any] = points.positions if points else {}
         info = PhotoInfo(
@@ -193,6 +202,12 @@ class PhotoRoutes:
         made = await run_in_threadpool(self._desk.warped_face, face, key, points)
         return as_json(replace(self._store.put(made), weights={}))
 
+    async def points(self, request: Request) -> Response:
+        """The points as a file."""
+        value = await json_body(request)
+        data = self._desk.points_file(request.path_params["id"], value.get("points"))
+        return Response(data, media_type="application/octet-stream")
+
     async def bundled(self, request: Request) -> Response:
         """The bundled portrait."""
         return as_json(await run_in_threadpool(self._desk.bundled))
@@ -205,5 +220,6 @@ def photo_routes(desk: PhotoDesk, store: FaceStore, jobs: Jobs) -> list[BaseRout
         Route("/api/photos/bundled", answered(routes.bundled)),
         Route("/api/photos/{id}", answered(routes.picture)),
         Route("/api/photos/{id}/warp", answered(routes.warp), methods=["POST"]),
+        Route("/api/photos/{id}/points", answered(routes.points), methods=["POST"]),
         Route("/api/photos/{id}/apply", answered(routes.apply), methods=["POST"]),
     ]

@@ -97,7 +97,7 @@ def _listener(host: str, port: int | None) -> socket.socket:
     """A socket that is bound already: the port that is printed is the port that is served."""
     tried = range(_FIRST_PORT, _FIRST_PORT + _PORTS) if port is None else [port]
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    reason: OSError | None = None
+    reason = "no such address or port"
     for number in tried:
         listener = socket.socket(family, socket.SOCK_STREAM)
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -108,8 +108,7 @@ def _listener(host: str, port: int | None) -> socket.socket:
             return listener
         except (OSError, OverflowError) as error:
             listener.close()
-            reason = error if isinstance(error, OSError) else None
+            reason = getattr(error, "strerror", None) or str(error)
     raise InputError(
-        f"cannot serve at {host}, port {tried[0]} ({getattr(reason, 'strerror', None)}); "
-        "choose another with --port"
+        f"cannot serve at {host}, port {tried[0]} ({reason}); choose another with --port"
     )
