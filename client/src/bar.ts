@@ -42,7 +42,7 @@ export class Bar {
       h("div", { class: "cluster" }, this.#undo, this.#redo, h("div", { class: "anchor" }, past, this.#history)),
       h("div", { class: "space" }),
       h("div", { class: "cluster" },
-        tool("open", "Open a photo, a face or a motion (Ctrl+O)", commands.open, "Open"),
+        tool("open", "Open a photo, a scan, a face or a motion (Ctrl+O)", commands.open, "Open"),
         tool("photo", "Photo and its points", commands.photo, "Photo"),
         tool("motion", "Motion (Space)", commands.motion, "Motion"),
         tool("curves", "Drag points of the boundary curves (D)", commands.sculpt, "Sculpt"),

@@ -34,7 +34,7 @@ export class Files {
   }
 
   choose(): void {
-    const input = h("input", { type: "file", accept: ".pdeface,.jpg,.jpeg,.png,.csv,.json", id: "file" });
+    const input = h("input", { type: "file", accept: ".pdeface,.jpg,.jpeg,.png,.ply,.obj,.stl,.glb,.csv,.json", id: "file" });
     input.addEventListener("change", () => {
       for (const file of input.files ?? []) void this.take(file);
     });
@@ -53,7 +53,7 @@ export class Files {
           this.#progress.replaceChildren(h("span", { class: "spinner" }), `${name}: ${message}…`);
           if (state === "failed") toast(new Error(message));
           if (state !== "done" || !made) return;
-          void this.studio.adopt({ ...made, name }, `Photo ${file.name}`);
+          void this.studio.adopt({ ...made, name }, `Open ${file.name}`);
           if (photo) {
             for (const note of photo.notes) toast(note);
             this.onPhoto(photo);

@@ -27,6 +27,7 @@ export class Head {
   private constructor(
     readonly root: THREE.Group,
     readonly size: Size,
+    readonly curves: number,
     curvePoints: number,
   ) {
     const meshes: THREE.Mesh[] = [];
@@ -68,9 +69,9 @@ export class Head {
     this.pivot = root.getObjectByName("head") ?? root;
   }
 
-  static async load(glb: ArrayBuffer, size: Size, curvePoints: number): Promise<Head> {
+  static async load(glb: ArrayBuffer, size: Size, curves: number, points: number): Promise<Head> {
     const { scene } = await new GLTFLoader().parseAsync(glb, "");
-    return new Head(scene, size, curvePoints);
+    return new Head(scene, size, curves, curves * points);
   }
 
   get skin(): Primitive {

@@ -118,7 +118,9 @@ export class Display {
   // Rows of the mesh that lie on the boundary curves; for the uv mesh, columns as well.
   #segments(): Float32Array {
     const { rows, columns } = this.head.size;
-    const across = steps(rows, 27);
+    // A mesh coarser than its curves shows some of them.
+    const { curves } = this.head;
+    const across = steps(rows, rows >= curves ? curves - 1 : 27);
     const down = this.mode === "uvmesh" && !this.overlay ? steps(columns, 40) : [];
     const used = this.#usedNodes();
     const found: number[] = [];

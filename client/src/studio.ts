@@ -89,7 +89,7 @@ export class Studio extends EventTarget {
     try {
       this.info = await this.#known(face);
       const glb = await api.model(face, size);
-      const head = await Head.load(glb, size, this.info.curves * this.info.points);
+      const head = await Head.load(glb, size, this.info.curves, this.info.points);
       if (turn !== this.#loading) return;
       this.viewer.show(head);
       this.#shown = face;

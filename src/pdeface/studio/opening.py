@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -16,6 +17,7 @@ from pdeface.motion import Track, clip, read
 from pdeface.studio.jobs import Jobs
 from pdeface.studio.photos import PhotoDesk
 from pdeface.studio.requests import answered, as_json, body
+from pdeface.studio.scans import fitted, scan_suffix
 from pdeface.studio.schema import ClipInfo, Opened
 from pdeface.studio.store import FaceStore
 
@@ -26,7 +28,7 @@ _FPS = 60.0
 
 
 def kind_of(data: bytes) -> str:
-    """``"face"``, ``"photo"`` or ``"motion"``, by the first bytes.
+    """``"face"``, ``"photo"``, ``"motion"`` or the suffix of a scan, by the content.
 
     Raises:
         InputError: none of them.
@@ -37,9 +39,11 @@ def kind_of(data: bytes) -> str:
         return "photo"
     if b"timecode" in data[:1024].lower() or data.lstrip()[:1] == b"{":
         return "motion"
+    if suffix := scan_suffix(data):
+        return suffix
     raise InputError(
-        "expected a .pdeface file, a photo (JPEG or PNG) or a Live Link Face CSV, got something "
-        "else; choose one of these"
+        "expected a .pdeface file, a photo (JPEG or PNG), a scan (PLY, OBJ, STL, GLB) or a Live "
+        "Link Face CSV, got something else; choose one of these"
     )
 
 
@@ -102,6 +106,9 @@ class OpenRoutes:
             return as_json(Opened(info, None, None))
         if kind == "motion":
             return as_json(Opened(None, await run_in_threadpool(opened_motion, data), None))
+        if kind != "photo":
+            work = partial(fitted, self._store, data, kind, self._photos.model)
+            return as_json(Opened(None, None, self._jobs.start("reading the scan", work)))
         job = self._jobs.start("reading the photo", lambda tell: self._photos.opened(data, tell))
         return as_json(Opened(None, None, job))
 

@@ -52,7 +52,7 @@ class PhotoDesk:
     """
 
     def __init__(self, store: FaceStore, model: str | None = None) -> None:
-        self._store, self._model = store, model
+        self._store, self.model = store, model
         self._photos: Kept[Photo] = Kept(_KEPT, "photo")
 
     def opened(self, data: bytes, tell: Tell) -> Result:
@@ -78,7 +78,7 @@ class PhotoDesk:
 
         pixels = _pixels(data)
         tell("looking for a face")
-        found = choose(find_faces(pixels, model_file(self._model)), 1, "the photo")
+        found = choose(find_faces(pixels, model_file(self.model)), 1, "the photo")
         tell("fitting the person's shape")
         views = photo_views([pixels], [found])
         face = neutral().with_name("photo").with_weights(views[0].shape.identity)
