@@ -94,12 +94,14 @@ export class Studio extends EventTarget {
       this.viewer.show(head);
       this.#shown = face;
       await this.refine();
+      performance.mark("shown");
       this.dispatchEvent(new Event("shown"));
       const columns = await api.columns(face, size);
       if (turn !== this.#loading) return;
       head.morph.setColumns(columns, this.schema.controls.map((control) => control.name));
       this.#follow();
       document.documentElement.dataset.ready = "true";
+      performance.mark("ready");
       this.dispatchEvent(new Event("ready"));
     } catch (error) {
       toast(error);

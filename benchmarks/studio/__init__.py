@@ -1,0 +1,1 @@
+"""How fast the studio's page answers, in a headless browser."""
