@@ -6,6 +6,10 @@ import type { Viewer } from "./viewer";
 const KINDS = ["video/webm;codecs=vp8", "video/webm;codecs=vp9", "video/webm"];
 const RATE = 30;
 const REST = 250;
+// Milliseconds of each piece, how many to wait for, and the bytes of a film without a picture.
+const SLICE = 100;
+const PATIENCE = 100;
+const HEADER = 300;
 const BITS = 12_000_000;
 
 // What is drawn while `play` lasts. A film has no transparency: the page's colour is behind it.
@@ -18,16 +22,27 @@ export async function recorded(viewer: Viewer, play: () => Promise<void>): Promi
     mimeType: kind, videoBitsPerSecond: BITS,
   });
   const chunks: Blob[] = [];
-  recorder.addEventListener("dataavailable", ({ data }) => chunks.push(data));
+  let bytes = 0;
+  recorder.addEventListener("dataavailable", ({ data }) => {
+    chunks.push(data);
+    bytes += data.size;
+  });
   const stopped = new Promise((resolve) => recorder.addEventListener("stop", resolve));
   try {
-    recorder.start();
+    recorder.start(SLICE);
+    // A recorder takes its time to begin, and what is played before is lost.
+    for (let n = 0; n < PATIENCE && bytes < HEADER; n++) {
+      viewer.drawNow();
+      await new Promise((resolve) => setTimeout(resolve, SLICE));
+    }
+    if (bytes < HEADER) throw new Error("the browser recorded nothing; use pdeface animate instead");
     await play();
     // The last frames are still on their way to the recorder.
     await new Promise((resolve) => setTimeout(resolve, REST));
     recorder.stop();
     await stopped;
   } finally {
+    if (recorder.state !== "inactive") recorder.stop();
     viewer.scene.background = null;
     viewer.draw();
   }

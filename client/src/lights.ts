@@ -3,8 +3,7 @@
 import * as THREE from "three";
 
 export function light(scene: THREE.Scene, renderer: THREE.WebGLRenderer): void {
-  scene.environment = softboxes(renderer);
-  scene.environmentIntensity = 0.55;
+  surround(scene, renderer);
   const lamp = (colour: number, intensity: number, x: number, y: number, z: number) => {
     const sun = new THREE.DirectionalLight(colour, intensity);
     sun.position.set(x, y, z);
@@ -17,6 +16,12 @@ export function light(scene: THREE.Scene, renderer: THREE.WebGLRenderer): void {
     lamp(0xffe2c8, 0.7, -1.2, 0.3, -0.8),
     new THREE.HemisphereLight(0xf2f4ff, 0x8d7a6c, 0.55),
   );
+}
+
+// What surrounds the face; drawn by the graphics card, and lost with its memory.
+export function surround(scene: THREE.Scene, renderer: THREE.WebGLRenderer): void {
+  scene.environment = softboxes(renderer);
+  scene.environmentIntensity = 0.55;
 }
 
 // What shines in the eyes: white panels in a dim room.

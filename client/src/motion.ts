@@ -21,6 +21,7 @@ export class Motion {
   #asked = 0;
   #rest: Weights = {};
   #lacks: Packet | null = null;
+  #recording = false;
   // Told when a recording has been played to its end.
   #ended: (() => void) | null = null;
   // Clips that came as files, by name.
@@ -140,9 +141,11 @@ export class Motion {
   // Plays once from the beginning and keeps what the stage shows.
   async record(): Promise<void> {
     const { clip, studio } = this;
-    if (!clip || this.#ended) return;
+    if (!clip || this.#recording) return;
+    this.#recording = true;
     try {
       const film = await recorded(studio.viewer, () => new Promise((ended) => {
+        this.pause();
         this.#ended = ended;
         this.seek(0);
         this.play();
@@ -151,6 +154,8 @@ export class Motion {
     } catch (error) {
       this.#ended = null;
       toast(error);
+    } finally {
+      this.#recording = false;
     }
   }
 

@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Head } from "./head";
-import { light } from "./lights";
+import { light, surround } from "./lights";
 import { Display } from "./modes";
 
 export const VIEWS = {
@@ -70,7 +70,10 @@ export class Viewer {
       event.preventDefault();
       onLost();
     });
-    this.canvas.addEventListener("webglcontextrestored", () => this.draw());
+    this.canvas.addEventListener("webglcontextrestored", () => {
+      surround(this.scene, this.renderer);
+      this.draw();
+    });
     this.renderer.debug.onShaderError = () => onLost();
     new ResizeObserver(() => this.#resize()).observe(stage);
     this.#resize();

@@ -18,7 +18,7 @@ export async function flows(page, { folder, gone, expecting }) {
   await page.waitForFunction(() => studio.head.size.rows === 28 && studio.head.morph.ready, null, { polling: 50 });
   await timed("modes", () => modes(page));
   await timed("views", () => views(page));
-  await timed("slider", () => slider(page));
+  await timed("slider", () => slider(page, expecting));
   await timed("contact", () => contact(page));
   await timed("controls", () => controls(page));
   await timed("motion", () => motion(page));
@@ -112,7 +112,7 @@ async function views(page) {
   return found;
 }
 
-async function slider(page) {
+async function slider(page, expecting) {
   await page.evaluate(() => (window.before = pixels()));
   const range = page.locator("#c-noseLength");
   const box = await range.boundingBox();
@@ -140,6 +140,7 @@ async function slider(page) {
   await exactly.press("Enter");
   found.exact = await page.evaluate(() => studio.doc.weights.noseLength);
   // Without the server's word: base plus displacements alone.
+  expecting(true);
   await page.route("**/evaluate", (route) => route.fulfill({ status: 500, json: { error: "not now" } }));
   await page.evaluate(() => {
     studio.preview({ ...studio.doc.weights, identity03: 1.2, jawOpen: 0.5, mouthSmileLeft: 0.7 });
@@ -150,6 +151,7 @@ async function slider(page) {
   await range.dblclick();
   found.reset = await page.evaluate(() => studio.doc.weights.noseLength ?? 0);
   await settle(page);
+  expecting(false);
   return found;
 }
 
@@ -362,6 +364,7 @@ async function shown(page, folder) {
   found.back = await page.evaluate(() => changed(before, pixels()));
   await page.getByRole("button", { name: "Motion" }).click();
   await page.locator("#clip").selectOption("blink");
+  await page.waitForFunction(() => motion.clip?.name === "blink" && motion.time > 0, null, { polling: 20 });
   const [film] = await Promise.all([page.waitForEvent("download"), page.locator("#film").click()]);
   await film.saveAs(join(folder, "blink.webm"));
   await page.getByRole("button", { name: "Close motion" }).click();
