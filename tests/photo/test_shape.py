@@ -200,3 +200,20 @@ def test_a_head_in_a_picture_is_turned_as_it_was(model, aside) -> None:
     face = pdeface.neutral().with_texture(uv_texture(*portrait()).image)
     (found,) = find_faces(render(face, view=aside, size=(480, 600)), model)
     assert np.degrees(found.yaw) == pytest.approx(-aside, abs=6.0)
+
+
+def test_the_residual_is_the_same_displacement_at_every_level() -> None:
+    from pdeface.photo.bundled import portrait_face
+
+    shape = fit_shape(portrait_face())
+    without = replace(shape, residual=np.zeros_like(shape.residual))
+    moves = [
+        shape.worn_by(pdeface.neutral(level)).mesh(55, 81, openings="none").vertices
+        - without.worn_by(pdeface.neutral(level)).mesh(55, 81, openings="none").vertices
+        for level in ("28x46", "55x92", "109x184")
+    ]
+    size = np.linalg.norm(moves[0], axis=1)
+    assert size.max() > 0.5e-3
+    for move in moves[1:]:
+        off = np.linalg.norm(move - moves[0], axis=1)
+        assert off.max() < 0.25e-3 and off.mean() < 0.02 * size.max()

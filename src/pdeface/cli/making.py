@@ -46,7 +46,7 @@ def made_from(
 
 
 def _views(photos: Sequence[Path], wishes: Wishes, report: Report) -> tuple[PhotoView, ...]:
-    from pdeface.photo import photo_views, portrait_face
+    from pdeface.photo import focal_length, photo_views, portrait_face
     from pdeface.texture import portrait, read_photo
 
     if photos:
@@ -57,8 +57,9 @@ def _views(photos: Sequence[Path], wishes: Wishes, report: Report) -> tuple[Phot
         ]
     else:
         images, found = [portrait()[0]], [portrait_face()]
+    focals = [focal_length(path) for path in photos] or None
     with report.step("fitting the person's shape"):
-        views = photo_views(images, found)
+        views = photo_views(images, found, focals)
     if photos:
         _warn_of_covers(views, report)
     return views

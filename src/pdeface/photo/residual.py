@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from pdeface.curves import BoundaryCurves, curve_parameters, mirror_points
 from pdeface.face import Face, neutral
+from pdeface.pde import GridEvaluator
 from pdeface.pde.scattered import point_weights
 from pdeface.photo.anchors import anchors
 from pdeface.photo.camera import PARAMETERS, PhotoCamera
@@ -25,7 +26,7 @@ from pdeface.photo.fitting import MESH_LANDMARKS, Fit
 from pdeface.photo.found import PhotoFace
 from pdeface.template import row_u
 
-__all__ = ["FACING", "curve_residual", "facing", "moved"]
+__all__ = ["FACING", "at_level", "curve_residual", "facing", "moved"]
 
 FloatArray = NDArray[np.float64]
 
@@ -117,6 +118,14 @@ def facing(face: Face, fit: Fit) -> FloatArray:
     towards = eye - fit.points
     normal = face.surface().normal(*anchors().uv[:MESH_LANDMARKS].T)
     return np.einsum("ni,ni->n", normal, towards) / np.linalg.norm(towards, axis=1)
+
+
+def at_level(residual: FloatArray, size: tuple[int, int]) -> FloatArray:
+    """(K, M, 3) a displacement of curves at another level, read off its own surface."""
+    if residual.shape[:2] == size or not residual.any():
+        return np.zeros((*size, 3)) if residual.shape[:2] != size else residual
+    u, v = np.linspace(0.0, 1.0, size[0]), curve_parameters(size[1])
+    return np.asarray(GridEvaluator(residual.shape[:2], u, v).positions(residual))
 
 
 def moved(face: Face, residual: FloatArray) -> Face:

@@ -15,7 +15,7 @@ from pdeface.photo.camera import PhotoCamera
 from pdeface.photo.fitting import MESH_LANDMARKS, Fit, basis, fit_view
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.regression import expected_identity
-from pdeface.photo.residual import FACING, curve_residual, facing, moved
+from pdeface.photo.residual import FACING, at_level, curve_residual, facing, moved
 
 __all__ = ["PhotoShape", "fit_shape", "fit_shapes"]
 
@@ -53,9 +53,8 @@ class PhotoShape:
         return self.worn_by(neutral())
 
     def worn_by(self, start: Face) -> Face:
-        """A face with the person's identity, and with the residual if it has as many curves."""
-        if start.curves.points.shape == self.residual.shape:
-            start = moved(start, self.residual)
+        """A face of any level with the person's identity and residual; weights it has stay."""
+        start = moved(start, at_level(self.residual, start.curves.shape))
         return start.with_weights({**self.identity, **start.weights})
 
 
