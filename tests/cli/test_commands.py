@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import pdeface
+from pdeface.photo import fit_shape, portrait_face
 from pdeface.texture import FeaturePoints, portrait, uv_texture, write_image
 
 
@@ -109,7 +110,9 @@ def test_make_without_a_photo_is_the_bundled_portrait(pdeface_command, tmp_path)
     outcome = pdeface_command("make", *words, "--level", "28x46", "--mesh", "28x41")
     assert (outcome.status, outcome.err) == (0, "")
     face = pdeface.load(outs[0])
-    assert face.curves == pdeface.neutral("28x46").curves
+    shape = fit_shape(portrait_face())
+    assert face.curves == shape.face.curves
+    assert face.weights == shape.identity
     assert face.texture is not None
     assert glb_json(outs[1])["images"]
 

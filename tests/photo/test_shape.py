@@ -135,6 +135,17 @@ def test_the_residual_brings_the_portrait_onto_its_landmarks(collins) -> None:
     assert np.array_equal(shape.face.weights, bare.weights)
 
 
+def test_the_residual_is_the_same_at_every_level(collins) -> None:
+    shape = fit_shape(collins)
+    meshes = []
+    for level in ("28x46", "55x92"):
+        start = pdeface.neutral(level)
+        bare = start.with_weights(shape.identity).mesh(55, 81, openings="none").vertices
+        meshes.append(shape.worn_by(start).mesh(55, 81, openings="none").vertices - bare)
+    assert np.abs(meshes[0]).max() > 1e-3
+    assert np.abs(meshes[0] - meshes[1]).max() < 1e-4
+
+
 def test_the_residual_folds_nothing(collins) -> None:
     shape = fit_shape(collins)
     bare = pdeface.neutral().with_weights(shape.identity)

@@ -120,12 +120,15 @@ def facing(face: Face, fit: Fit) -> FloatArray:
     return np.einsum("ni,ni->n", normal, towards) / np.linalg.norm(towards, axis=1)
 
 
-def at_level(residual: FloatArray, size: tuple[int, int]) -> FloatArray:
-    """(K, M, 3) a displacement of curves at another level, read off its own surface."""
-    if residual.shape[:2] == size or not residual.any():
-        return np.zeros((*size, 3)) if residual.shape[:2] != size else residual
-    u, v = np.linspace(0.0, 1.0, size[0]), curve_parameters(size[1])
-    return np.asarray(GridEvaluator(residual.shape[:2], u, v).positions(residual))
+def at_level(residual: FloatArray, shape: tuple[int, int]) -> FloatArray:
+    """The displacement for curves of another number, read off its own surface."""
+    if residual.shape[:2] == shape:
+        return residual
+    curves, count = shape
+    u, v = np.linspace(0.0, 1.0, curves), curve_parameters(count)[: count // 2]
+    own = residual.shape[0], residual.shape[1]
+    half = GridEvaluator(own, u, v).positions(residual)
+    return mirror_points(np.asarray(half, dtype=np.float64))
 
 
 def moved(face: Face, residual: FloatArray) -> Face:

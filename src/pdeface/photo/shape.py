@@ -53,9 +53,9 @@ class PhotoShape:
         return self.worn_by(neutral())
 
     def worn_by(self, start: Face) -> Face:
-        """A face of any level with the person's identity and residual; weights it has stay."""
-        start = moved(start, at_level(self.residual, start.curves.shape))
-        return start.with_weights({**self.identity, **start.weights})
+        """A face at rest, of any level, with the person's identity and the residual."""
+        person = moved(start, at_level(self.residual, start.curves.shape))
+        return person.with_weights({**self.identity, **start.weights})
 
 
 def fit_shape(face: PhotoFace, focal: float | None = None) -> PhotoShape:
