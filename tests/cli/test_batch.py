@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -65,3 +67,54 @@ def test_names_that_differ_in_their_suffix_alone_keep_it() -> None:
     sources = [Path("a.ply"), Path("a.obj"), Path("b.ply")]
     plan = planned(sources, Path("out"), [".glb"])
     assert [files[0].name for files in plan.values()] == ["a-ply.glb", "a-obj.glb", "b.glb"]
+
+
+def slow_work(source: Path, outputs: list[Path]) -> str:
+    """Says which process did it; the first to meet "kill" is killed, the next is not."""
+    if source.read_text() == "kill":
+        source.write_text("killed once")
+        os.kill(os.getpid(), signal.SIGKILL)
+    time.sleep(0.2)
+    for output in outputs:
+        output.write_text(str(os.getpid()))
+    return "done"
+
+
+CLUSTER = """
+import sys, pathlib, distributed, test_batch
+from pdeface.cli.batch import work_through
+from pdeface.cli.report import Report
+folder = pathlib.Path(sys.argv[1])
+plan = test_batch.folder(folder, {f"{n}.txt": "fine" for n in range(12)} | {"5.txt": "kill"})
+with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None) as cluster:
+    work_through(plan, test_batch.slow_work, 1, Report(), "file", cluster.scheduler_address)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
+def test_a_cluster_loses_a_worker_and_nothing_else(tmp_path: Path) -> None:
+    if os.environ.get("CI", "").lower() != "true":
+        pytest.importorskip("distributed", reason="needs the extra 'cluster'")
+    path = os.pathsep.join([str(Path(__file__).parent), *sys.path])
+    done = subprocess.run(
+        [sys.executable, "-c", CLUSTER, str(tmp_path)],
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=240,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "12 made, 0 kept, 0 failed" in done.stdout
+    assert (tmp_path / "5.txt").read_text() == "killed once"
+    assert len(list(tmp_path.glob("*.out"))) == 12
+
+
+def test_no_scheduler_is_one_line(tmp_path: Path, monkeypatch) -> None:
+    if os.environ.get("CI", "").lower() != "true":
+        pytest.importorskip("distributed", reason="needs the extra 'cluster'")
+    monkeypatch.setattr("pdeface.cli.batch._PATIENCE", 0.5)
+    plan = folder(tmp_path, {"a.txt": "fine"})
+    with pytest.raises(InputError, match="none answers") as caught:
+        work_through(plan, work, 1, Report(), "file", "tcp://127.0.0.1:9")
+    assert "\n" not in str(caught.value)

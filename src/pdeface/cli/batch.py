@@ -8,17 +8,21 @@ import multiprocessing
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import typer
 
 from pdeface.cli.report import Report
-from pdeface.errors import PDEFaceError
+from pdeface.errors import InputError, PDEFaceError, require
 
 __all__ = ["Outcome", "Work", "planned", "work_through"]
 
 SOME_FAILED = 1
+_RETRIES = 2
+_PATIENCE = 10.0
+"""Seconds in which a scheduler must answer."""
 
 Work = Callable[[Path, list[Path]], str]
 """From an input and its outputs, which it writes, to what there is to say about them."""
@@ -46,7 +50,12 @@ def planned(
 
 
 def work_through(
-    plan: Mapping[Path, list[Path]], work: Work, jobs: int, report: Report, what: str
+    plan: Mapping[Path, list[Path]],
+    work: Work,
+    jobs: int,
+    report: Report,
+    what: str,
+    cluster: str | None = None,
 ) -> None:
     """Do the work for every input, with a table of what became of each.
 
@@ -58,12 +67,15 @@ def work_through(
         jobs: how many inputs at once.
         report: where warnings and the table go.
         what: an input is, in a word.
+        cluster: address of a Dask scheduler whose workers do it instead; they must see the files.
 
     Raises:
+        InputError: no scheduler answers there.
+        MissingExtraError: Dask is asked for and not installed.
         typer.Exit: with status 1, if some failed.
     """
     outcomes = []
-    for outcome in report.counted(_outcomes(plan, work, jobs, what), len(plan), "faces"):
+    for outcome in report.counted(_outcomes(plan, work, jobs, what, cluster), len(plan), "faces"):
         outcomes.append(outcome)
         if outcome.state == "failed":
             report.warn(f"{outcome.source.name}: {outcome.message}")
@@ -73,7 +85,7 @@ def work_through(
 
 
 def _outcomes(
-    plan: Mapping[Path, list[Path]], work: Work, jobs: int, what: str
+    plan: Mapping[Path, list[Path]], work: Work, jobs: int, what: str, cluster: str | None
 ) -> Iterator[Outcome]:
     """The outcome of every input, as they come."""
     todo = {}
@@ -83,6 +95,9 @@ def _outcomes(
         else:
             todo[source] = outputs
     one = functools.partial(_one, work=work)
+    if cluster is not None:
+        yield from _on_cluster(todo, one, cluster)
+        return
     if jobs == 1 or len(todo) < 2:
         for source, outputs in todo.items():
             yield one(source, outputs)
@@ -117,6 +132,41 @@ def _together(
             pool.shutdown(wait=False, cancel_futures=True)
             raise
     return broken
+
+
+def _on_cluster(
+    todo: Mapping[Path, list[Path]], one: Callable[[Path, list[Path]], Outcome], address: str
+) -> Iterator[Outcome]:
+    """Outcomes from the workers of a Dask cluster; what a lost worker was at goes to another."""
+    distributed = require("distributed", "cluster", "to work on a Dask cluster")
+    with _client(distributed, address) as client:
+        running = {}
+        for source, outputs in todo.items():
+            # Workers have working folders of their own.
+            places = source.absolute(), [output.absolute() for output in outputs]
+            future = client.submit(one, *places, pure=False, retries=_RETRIES)
+            running[future] = source
+        while running:
+            # Not as_completed: it waits for ever for what was done, and lost with its worker.
+            for done in distributed.wait(list(running), return_when="FIRST_COMPLETED").done:
+                source = running.pop(done)
+                try:
+                    yield done.result()._replace(source=source)
+                except Exception as error:  # its workers were lost, again and again
+                    yield Outcome(source, "failed", 0.0, f"{type(error).__name__} on the cluster")
+
+
+@contextmanager
+def _client(distributed: Any, address: str) -> Iterator[Any]:
+    try:
+        client = distributed.Client(address, timeout=_PATIENCE)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError(
+            f"expected a Dask scheduler at {address}, none answers there; start one, such as "
+            "tcp://127.0.0.1:8786"
+        ) from error
+    with client:
+        yield client
 
 
 def _is_newer(outputs: Sequence[Path], source: Path) -> bool:

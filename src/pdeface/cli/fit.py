@@ -79,6 +79,12 @@ def fit(
         typer.Option("--jobs", metavar="N", min=1, help="For a folder of scans: how many to work "
                      "on at once."),
     ] = 1,
+    cluster: Annotated[
+        str | None,
+        typer.Option("--dask", metavar="ADDRESS", help="For a folder of scans: a Dask scheduler, "
+                     "such as tcp://127.0.0.1:8786, whose workers fit them; they must see the same "
+                     "files."),
+    ] = None,
     quiet: QuietOption = False,
 ) -> None:  # fmt: skip
     """Fit a face to a scan.
@@ -98,6 +104,7 @@ def fit(
       pdeface fit cloud.ply --landmarks points.json -o face.pdeface
       pdeface fit head.ply -o small.pdeface --no-texture --compact 0.1
       pdeface fit scans/ -o faces/ --jobs 2
+      pdeface fit scans/ -o faces/ --dask tcp://127.0.0.1:8786
     """
     how = Fitting(
         parse_level(level), units, landmarks, rounded, model, texture, parse_mesh(mesh), compact
@@ -111,8 +118,10 @@ def fit(
     if scan.is_dir():
         if report_picture is not None:
             raise InputError("--report is of one scan; leave it out for a folder")
-        fit_folder(scan, out, formats, jobs, how, report)
+        fit_folder(scan, out, formats, jobs, how, report, cluster)
         return
+    if cluster is not None:
+        raise InputError("--dask is for a folder of scans, got one scan; leave it out")
     inputs = [scan, landmarks, model]
     check_compact(compact, out)
     check_outputs(out, inputs, SUFFIXES)

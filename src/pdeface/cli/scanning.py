@@ -71,7 +71,13 @@ def fit_file(
 
 
 def fit_folder(
-    folder: Path, out: Sequence[Path], formats: str, jobs: int, how: Fitting, report: Report
+    folder: Path,
+    out: Sequence[Path],
+    formats: str,
+    jobs: int,
+    how: Fitting,
+    report: Report,
+    cluster: str | None = None,
 ) -> None:
     """Fit a face to every scan in a folder, with a table of what became of each.
 
@@ -98,7 +104,7 @@ def fit_folder(
         raise InputError(f"expected scans in '{folder}', found none; name another folder")
     out[0].mkdir(parents=True, exist_ok=True)
     plan = planned(scans, out[0], suffixes)
-    work_through(plan, functools.partial(_one, how=how), jobs, report, "scan")
+    work_through(plan, functools.partial(_one, how=how), jobs, report, "scan", cluster)
 
 
 def _one(scan: Path, outputs: list[Path], how: Fitting) -> str:
