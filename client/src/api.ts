@@ -76,6 +76,8 @@ export const api = {
     packet(post(`${face(id)}/residuals`, { ...size, weights, frames })),
   edit: (id: string, moves: readonly (readonly number[])[]) =>
     json<FaceInfo>(post(`${face(id)}/edit`, { moves })),
+  blend: (id: string, other: string, share: number) =>
+    json<FaceInfo>(post(`${face(id)}/blend`, { other, share })),
   save: async (id: string, name: string, weights: Weights) =>
     (await post(`${face(id)}/save`, { name, weights })).blob(),
   export: async (id: string, request: ExportRequest) =>

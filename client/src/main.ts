@@ -2,6 +2,7 @@
 
 import { api } from "./api";
 import { Bar } from "./bar";
+import { Blend } from "./blend";
 import { Timeline, type Step } from "./document";
 import { download, fileName } from "./dialogs";
 import { settled } from "./dom";
@@ -34,7 +35,8 @@ async function start(): Promise<void> {
     toast(new Error("the browser can no longer draw in 3D; reload the page, your work is kept")));
   const studio = new Studio(schema, timeline, viewer);
   const tools = new Tools(studio, stage);
-  const panel = new Panel(studio, document.getElementById("panel")!);
+  const blend = new Blend(studio, stage);
+  const panel = new Panel(studio, document.getElementById("panel")!, () => blend.choose());
   const switchTheme = () => {
     setTheme(theme() === "dark" ? "light" : "dark");
     dress();
@@ -105,7 +107,7 @@ async function start(): Promise<void> {
   studio.addEventListener("shown", dress);
   if (own) toast("Your work was recovered.");
   else if (left && worthIt(left)) offer(left, timeline);
-  Object.assign(window, { studio, viewer, motion, handles, files, api });
+  Object.assign(window, { studio, viewer, motion, handles, files, blend, api });
   await studio.load();
   welcome(() => help(shortcuts));
   await studio.keepCurrent();

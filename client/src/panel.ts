@@ -25,6 +25,7 @@ export class Panel {
   constructor(
     private studio: Studio,
     place: HTMLElement,
+    private blend: () => void,
   ) {
     this.#sliders = studio.schema.controls.map((control) => new Slider(studio, control));
     this.#search = h("input", {
@@ -98,7 +99,8 @@ export class Panel {
       if (!studio.symmetric) children.push(button("L to R", () => this.#copy(), "Copy the left side to the right"));
     } else {
       children.push(
-        button("Random face", () => studio.commit("Random face", this.#random()), "Someone new (R)", "dice"),
+        button("Random", () => studio.commit("Random face", this.#random()), "Someone new (R)", "dice"),
+        button("Blend", () => this.blend(), "Blend with another face, a .pdeface file"),
         button("Reset shape", reset(["shape", "identity"], "Reset shape")),
       );
     }

@@ -184,7 +184,7 @@ async function controls(page) {
   await page.locator("#symmetry").click();
   await page.locator("#search").fill("");
   await page.getByRole("tab", { name: "Shape" }).click();
-  await page.getByRole("button", { name: "Random face" }).click();
+  await page.getByRole("button", { name: "Random" }).click();
   found.random = await page.evaluate(() => Object.keys(studio.doc.weights).filter((n) => n.startsWith("identity")).length);
   await page.getByRole("button", { name: "Reset shape" }).click();
   found.resetShape = await page.evaluate(() => Object.keys(studio.doc.weights).filter((n) => !/^(eye|mouth|cheek|brow)/.test(n)));
@@ -306,6 +306,13 @@ async function files(page, folder, expecting) {
   await page.evaluate(() => files.take(new File(["<html>"], "face.png")));
   expecting(false);
   found.refused = await page.locator(".toast.bad").last().textContent();
+  await page.evaluate(async () => {
+    const blob = await api.save(studio.doc.face, "Dee", { noseWidth: 1 });
+    await blend.with(new File([blob], "dee.pdeface"));
+    await blend.mix(0.25);
+  });
+  found.blended = await page.evaluate(() => [studio.timeline.steps.at(-1).label, studio.doc.weights]);
+  await page.getByRole("button", { name: "Close blend" }).click();
   await page.evaluate(() => files.take(new File(["Timecode,BlendshapeCount,JawOpen\n00:00:01:00.000,61,0\n00:00:01:30.000,61,1\n"], "take.csv")));
   found.recording = await page.evaluate(() => [motion.clip.name, motion.duration]);
   await page.getByRole("button", { name: "Close motion" }).click();

@@ -207,6 +207,7 @@ def test_files_are_opened_and_refused_by_what_they_are(report) -> None:
     files = report["files"]
     assert files["opened"] == ["Cy", {"browInnerUp": 1}]
     assert "got something else" in files["refused"]
+    assert files["blended"] == ["Blend 25 %", {"browInnerUp": 0.75, "noseWidth": 0.25}]
     assert files["recording"][0] == "take"
     assert files["recording"][1] > 0.4
 

@@ -14,6 +14,7 @@ from starlette.routing import BaseRoute, Route
 
 from pdeface.errors import InputError
 from pdeface.face import Face
+from pdeface.studio.blending import blended
 from pdeface.studio.moves import with_moves
 from pdeface.studio.packets import pack_arrays, packed
 from pdeface.studio.requests import answered, as_json, json_body, mesh_size, weights_of
@@ -101,6 +102,15 @@ class FaceRoutes:
             self._store.put(await run_in_threadpool(with_moves, face, value.get("moves")))
         )
 
+    async def blend(self, request: Request) -> Response:
+        """A face between this one and another."""
+        value = await json_body(request)
+        one = self._store.get(request.path_params["id"])
+        other, share = self._store.get(str(value.get("other"))), value.get("share")
+        if not isinstance(share, int | float) or isinstance(share, bool):
+            raise InputError(f"a share of a blend is a number, got {share!r}; reload the page")
+        return as_json(self._store.put(await run_in_threadpool(blended, one, other, share)))
+
     async def residuals(self, request: Request) -> Response:
         """What the page's sum of columns lacks in the frames of a motion."""
         value = await json_body(request)
@@ -161,6 +171,7 @@ def face_routes(store: FaceStore, first: FaceInfo) -> list[BaseRoute]:
         Route(f"{one}/evaluate", answered(routes.evaluate), methods=["POST"]),
         Route(f"{one}/response", answered(routes.response), methods=["POST"]),
         Route(f"{one}/residuals", answered(routes.residuals), methods=["POST"]),
+        Route(f"{one}/blend", answered(routes.blend), methods=["POST"]),
         Route(f"{one}/edit", answered(routes.edit), methods=["POST"]),
         Route(f"{one}/save", answered(routes.save), methods=["POST"]),
         Route(f"{one}/export", answered(routes.export), methods=["POST"]),
