@@ -2,8 +2,10 @@
 
 import * as THREE from "three";
 
-export function light(scene: THREE.Scene, renderer: THREE.WebGLRenderer): void {
-  surround(scene, renderer);
+// Without what surrounds the face, which takes a processor seconds to draw, there is more light
+// from everywhere.
+export function light(scene: THREE.Scene, renderer: THREE.WebGLRenderer, surrounded: boolean): void {
+  if (surrounded) surround(scene, renderer);
   const lamp = (colour: number, intensity: number, x: number, y: number, z: number) => {
     const sun = new THREE.DirectionalLight(colour, intensity);
     sun.position.set(x, y, z);
@@ -14,7 +16,7 @@ export function light(scene: THREE.Scene, renderer: THREE.WebGLRenderer): void {
     lamp(0xdfe9ff, 0.55, 1.2, 0.15, 0.8),
     lamp(0xcfe0ff, 1.1, 1.1, 0.7, -0.9),
     lamp(0xffe2c8, 0.7, -1.2, 0.3, -0.8),
-    new THREE.HemisphereLight(0xf2f4ff, 0x8d7a6c, 0.55),
+    new THREE.HemisphereLight(0xf2f4ff, 0x8d7a6c, surrounded ? 0.55 : 1.35),
   );
 }
 

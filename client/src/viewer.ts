@@ -18,7 +18,7 @@ export type View = keyof typeof VIEWS;
 const FIELD = 22;
 const TURN = 0.12;
 
-// Whether the processor draws, which smooth edges would slow down threefold.
+// Whether the processor draws, which smooth edges and reflections would slow down severalfold.
 function isSoftware(): boolean {
   const probe = document.createElement("canvas").getContext("webgl2");
   if (!probe) throw new Error("this browser cannot draw in 3D (WebGL 2); try another, or enable it");
@@ -42,6 +42,7 @@ export class Viewer {
   #perspective = new THREE.PerspectiveCamera(FIELD, 1, 0.02, 10);
   #orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.02, 10);
   #asked = 0;
+  #software: boolean;
   #centre = new THREE.Vector3(0, 0, 0.05);
   #radius = 0.14;
   #animation = 0;
@@ -55,23 +56,24 @@ export class Viewer {
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("aria-label", "The face in 3D: drag to turn, wheel to zoom");
     stage.append(this.canvas);
-    const antialias = !isSoftware();
+    this.#software = isSoftware();
+    const antialias = !this.#software;
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias, alpha: true });
     this.renderer.setPixelRatio(antialias ? Math.min(2, window.devicePixelRatio) : 1);
     this.renderer.toneMapping = THREE.NeutralToneMapping;
-    this.renderer.toneMappingExposure = 1.0;
+    this.renderer.toneMappingExposure = this.#software ? 1.25 : 1.0;
     this.camera = this.#perspective;
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.minDistance = 0.12;
     this.controls.maxDistance = 3;
     this.controls.addEventListener("change", () => this.draw());
-    light(this.scene, this.renderer);
+    light(this.scene, this.renderer, !this.#software);
     this.canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       onLost();
     });
     this.canvas.addEventListener("webglcontextrestored", () => {
-      surround(this.scene, this.renderer);
+      if (!this.#software) surround(this.scene, this.renderer);
       this.draw();
     });
     this.renderer.debug.onShaderError = () => onLost();
