@@ -18,7 +18,7 @@ from starlette.responses import Response
 from starlette.routing import BaseRoute, Route
 
 from pdeface.errors import InputError, require
-from pdeface.face import Face, neutral
+from pdeface.face import Face
 from pdeface.images import encode_compact
 from pdeface.studio.jobs import Jobs, Result, Tell
 from pdeface.studio.requests import answered, as_json, json_body
@@ -81,7 +81,7 @@ class PhotoDesk:
         found = choose(find_faces(pixels, model_file(self.model)), 1, "the photo")
         tell("fitting the person's shape")
         views = photo_views([pixels], [found])
-        face = neutral().with_name("photo").with_weights(views[0].shape.identity)
+        face = views[0].shape.face.with_name("photo")
         tell("reading the texture")
         face = textured(face, views)
         notes = list(doubts(found, pixels))
