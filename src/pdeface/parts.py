@@ -31,8 +31,13 @@ _NEAR_CORNERS, _WHITE_LIGHT = 0.40, (0.75, 0.95)
 _WHITES = (176, 160, 150), (236, 230, 224)
 _FEWEST_TEXELS = 40
 
-# Blinks of which the eyeballs keep clear, lest they show through a lid on its way.
-_BLINKS = (0.25, 0.5, 0.75, 1.0)
+# What the eyeballs keep clear of, lest they show through a lid on its way.
+_LIDS: tuple[Mapping[str, float], ...] = (
+    *({"eyeBlink": blink} for blink in (0.25, 0.5, 0.75, 1.0)),
+    *({look: 1.0, "eyeLookOut": 1.0} for look in ("eyeLookDown", "eyeLookUp")),
+    *({look: 1.0, "eyeLookIn": 1.0} for look in ("eyeLookDown", "eyeLookUp")),
+    {"eyeSquint": 1.0},
+)
 
 NARROWEST = 1e-6
 """Metres between the corners of an opening behind which something can be."""
@@ -115,7 +120,7 @@ class FaceParts:
         self._rest = face.curves.points + person(face.weights, face.curves.shape)
         self._weights = {n: w for n, w in face.weights.items() if CONTROLS[n].kind == "expression"}
         rest = self.outline(Displacement(self._rest, np.zeros_like(self._rest)))
-        lids = [self._blinking(blink) for blink in _BLINKS]
+        lids = [self._lidded(lids) for lids in _LIDS]
         self._anatomy = placed(rest, lids)
 
     def curves(self, name: str) -> FloatArray:
@@ -143,8 +148,9 @@ class FaceParts:
     def _own(self) -> Outline:
         return self.outline(self._expressed(self._weights))
 
-    def _blinking(self, blink: float) -> Outline:
-        moved = self._expressed({"eyeBlinkLeft": blink, "eyeBlinkRight": blink})
+    def _lidded(self, lids: Mapping[str, float]) -> Outline:
+        both = {f"{name}{side}": w for name, w in lids.items() for side in ("Left", "Right")}
+        moved = self._expressed(both)
         return self.outline(moved._replace(smooth=self._rest + moved.smooth))
 
     def _expressed(self, weights: Mapping[str, float]) -> Displacement:

@@ -61,17 +61,23 @@ class Eyeball:
         self.rest = self.centre + self._relative
 
     def moved(self, outline: Outline, weights: Mapping[str, float]) -> FloatArray:
-        """(K, M, 3) displacement by looks: ``weight (R - I) x`` of each, about the centre."""
-        moved = np.zeros_like(self.rest)
+        """(K, M, 3) displacement by looks, about the centre.
+
+        A look at weight w alone does ``w (R - I) x``, as a morph target does. Looks aside and up or
+        down are made one after the other: their sum would swell the eyeball through its lids.
+        """
         outwards = 1.0 if self._side == "left" else -1.0
-        for look, axis, sign in (
-            ("Out", 1, outwards), ("In", 1, -outwards), ("Up", 0, -1.0), ("Down", 0, 1.0)
-        ):  # fmt: skip
-            weight = weights.get(f"eyeLook{look}{self._side.capitalize()}", 0.0)
-            if weight:
-                turn = _rotation(axis, sign * LOOK) - np.eye(3)
-                moved += weight * (self._relative @ turn.T)
-        return moved
+        turned = self._relative
+        for axis, looks in (
+            (1, (("Out", outwards), ("In", -outwards))),
+            (0, (("Up", -1.0), ("Down", 1.0))),
+        ):
+            turn = np.eye(3)
+            for look, sign in looks:
+                weight = weights.get(f"eyeLook{look}{self._side.capitalize()}", 0.0)
+                turn += weight * (_rotation(axis, sign * LOOK) - np.eye(3))
+            turned = turned @ turn.T
+        return np.asarray(turned - self._relative)
 
 
 class Lids:
