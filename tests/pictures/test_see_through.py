@@ -18,8 +18,8 @@ from pdeface.pictures.solid import Solid
 SIZE = (320, 200)
 VIEWS = (-20.0, 40.0)
 SLIT = 2
-"""Pixels of some 500 along shut lids whose centre may meet a slit between them: lids meet to a few
-micrometres, and a pixel is 280 across."""
+"""Pixels of some 500 along shut lids whose centre may meet the slit between them, whatever lies
+behind it: lids meet to a few micrometres, and a pixel is 280 across."""
 SKIN, RIM, BALL = np.eye(3)[[1, 2, 0]]
 COMPANY = st.dictionaries(
     st.sampled_from([f"eye{name}Left" for name in ("Wide", "Squint", "LookUp", "LookDown")])
@@ -103,8 +103,8 @@ def test_a_shut_eye_shows_neither_eyeball_nor_hole(level, mesh, seed, company) -
     face = face.set(**company, eyeBlinkLeft=1.0)
     for azimuth in VIEWS:
         picture = seen(face, azimuth, mesh)
-        assert picture.ball.sum() <= SLIT, azimuth
-        assert not (picture.between & picture.nothing).any(), azimuth
+        hole = picture.between & picture.nothing
+        assert picture.ball.sum() + hole.sum() <= SLIT, azimuth
 
 
 def test_an_eyeball_is_seen_where_it_is_open_and_would_be_through_a_lid() -> None:
