@@ -18,6 +18,7 @@ from pdeface.anatomy.textures import EYE_WHITE, IRIS_COLOUR
 from pdeface.controls import CONTROLS, Displacement, expressed, person
 from pdeface.controls.seams import seam
 from pdeface.face import Face
+from pdeface.openings import Opening
 from pdeface.template import openings
 
 __all__ = ["FaceParts", "eye_colours", "has_parts"]
@@ -64,21 +65,31 @@ def eye_colours(face: Face) -> tuple[Colour, Colour]:
     """
     if face.texture is None:
         return IRIS_COLOUR, EYE_WHITE
-    height, width = face.texture.shape[:2]
-    u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
     middles, sides = [], []
     for opening in openings()[:2]:
         start, end = opening.corners
+        texels, u, v = _window(face.texture, opening)
         upper, lower = (line + (u[:, None] * 0.0) for line in opening.lines(v))
         inset = _INSET * (lower - upper)
         inside = (u[:, None] > upper + inset) & (u[:, None] < lower - inset)
         away = np.abs(v - 0.5 * (start + end)) / (end - start)
-        middles.append(face.texture[inside & (away < _MIDDLE)])
-        sides.append(face.texture[inside & (away > _MIDDLE) & (away < _NEAR_CORNERS)])
+        middles.append(texels[inside & (away < _MIDDLE)])
+        sides.append(texels[inside & (away > _MIDDLE) & (away < _NEAR_CORNERS)])
     iris = _middle_colour(np.concatenate(middles), _IRIS_LIGHT)
     white = _middle_colour(np.concatenate(sides), _WHITE_LIGHT)
     # Strongly lit or shaded eyes would look blind or dead in any other light.
     return iris or IRIS_COLOUR, EYE_WHITE if white is None else _between(white, *_WHITES)
+
+
+def _window(
+    texture: NDArray[np.uint8], opening: Opening
+) -> tuple[NDArray[np.uint8], FloatArray, FloatArray]:
+    """The texels in an opening's box, and their u and v."""
+    height, width = texture.shape[:2]
+    u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
+    rows = (u >= min(opening.upper)) & (u <= max(opening.lower))
+    columns = (v >= opening.v[0]) & (v <= opening.v[-1])
+    return texture[np.ix_(rows, columns)], u[rows], v[columns]
 
 
 def _middle_colour(texels: NDArray[np.uint8], part: tuple[float, float]) -> Colour | None:

@@ -57,10 +57,10 @@ def sampled_parts(targets: MorphTargets) -> Iterator[PartSample]:
         return
     parts = FaceParts(targets.face)
     outlines = [parts.outline(moved) for moved in targets.moved]
+    eyes = eye_colours(targets.face)
     for name, part in parts.parts.items():
-        yield _sampled(
-            targets, parts, outlines, part_on_mesh(part, targets.surface.uv_mesh.rows), name
-        )
+        own = part_on_mesh(part, targets.surface.uv_mesh.rows)
+        yield _sampled(targets, parts, outlines, own, name, textures.texture(name, *eyes))
 
 
 def part_on_mesh(part: Part, face_rows: int) -> Part:
@@ -73,7 +73,12 @@ def part_on_mesh(part: Part, face_rows: int) -> Part:
 
 
 def _sampled(
-    targets: MorphTargets, parts: FaceParts, outlines: list[Outline], part: Part, name: str
+    targets: MorphTargets,
+    parts: FaceParts,
+    outlines: list[Outline],
+    part: Part,
+    name: str,
+    texture: NDArray[np.uint8],
 ) -> PartSample:
     curves = parts.curves(name)
     normals = part.normals(curves)
@@ -93,7 +98,7 @@ def _sampled(
         part.grid.texcoords.astype(np.float32),
         part.grid.triangles,
         differences,
-        textures.texture(name, *eye_colours(targets.face)),
+        texture,
     )
 
 
