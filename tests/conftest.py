@@ -50,3 +50,17 @@ def ffmpeg() -> str:
             pytest.fail(missing)
         pytest.skip(missing)
     return str(imageio_ffmpeg.get_ffmpeg_exe())
+
+
+@pytest.fixture(scope="session")
+def model(shared_data: Path) -> Path:
+    """The model's file; without it or MediaPipe tests are skipped, in CI they fail."""
+    if not IN_CI:
+        pytest.importorskip("mediapipe", reason="needs the extra 'photo'", exc_type=ImportError)
+    from pdeface.photo.model import NAME
+
+    path = shared_data / "models" / NAME
+    if not path.is_file():
+        message = f"no {NAME} in {path.parent}"
+        (pytest.fail if IN_CI else pytest.skip)(message)
+    return path

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import pdeface
-from pdeface.photo.model import NAME
 from pdeface.scan import Landmarks, Scan, make_scan
 from pdeface.scan.landmark_file import known_places
-
-IN_CI = os.environ.get("CI", "").lower() == "true"
 
 pytest.importorskip("scipy", reason="needs the extra 'scan'")
 
@@ -45,15 +40,3 @@ def scanned(face: pdeface.Face, rows: int = 163, columns: int = 150) -> Known:
 def known() -> Known:
     """A random person at the finest level."""
     return scanned(pdeface.random(5, "109x184"))
-
-
-@pytest.fixture(scope="session")
-def model(shared_data: Path) -> Path:
-    """MediaPipe's model; without it or MediaPipe tests are skipped, in CI they fail."""
-    if not IN_CI:
-        pytest.importorskip("mediapipe", reason="needs the extra 'photo'", exc_type=ImportError)
-    path = shared_data / "models" / NAME
-    if not path.is_file():
-        message = f"no {NAME} in {path.parent}"
-        (pytest.fail if IN_CI else pytest.skip)(message)
-    return path

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from pdeface.face import neutral
 from pdeface.openings import Cut
 from pdeface.photo.anchors import anchors
+from pdeface.photo.fitting import MESH_LANDMARKS
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.shape import PhotoShape
 from pdeface.uvmesh import UVMesh
@@ -29,8 +30,6 @@ FloatArray = NDArray[np.float64]
 
 GRID = (163, 241)
 """Rows and columns of the uv mesh on which all this is worked out."""
-
-_MESH_LANDMARKS = 468
 
 LINES = MappingProxyType(
     {
@@ -92,7 +91,7 @@ def seen(found: PhotoFace, shape: PhotoShape) -> Seen:
     apart = _coordinates()
     on_face, on_apart = (_landmarks(values, uv_mesh) for values in (points, apart))
     eye, camera = found.eye_distance, shape.camera
-    off = (found.landmarks[:_MESH_LANDMARKS, :2] - camera.project(on_face)) / eye
+    off = (found.landmarks[:MESH_LANDMARKS, :2] - camera.project(on_face)) / eye
     covariance = _covariance(on_apart, on_apart)
     weights = np.linalg.solve(covariance + np.diag(_noise() ** 2), off)
     field = np.concatenate([_covariance(row, on_apart) @ weights for row in apart])
@@ -115,7 +114,7 @@ def _coordinates() -> FloatArray:
 
 def _landmarks(values: FloatArray, mesh: UVMesh) -> FloatArray:
     """(468, k) values at the landmarks, those on lines read along the lines."""
-    uv = anchors().uv[:_MESH_LANDMARKS]
+    uv = anchors().uv[:MESH_LANDMARKS]
     result = _bilinear(values, uv, mesh)
     for cut in mesh.cuts:
         lines = LINES[cut.opening.name]
@@ -150,7 +149,7 @@ def _bilinear(values: FloatArray, uv: FloatArray, mesh: UVMesh) -> FloatArray:
 
 def _noise() -> FloatArray:
     """(468,) standard deviation of each landmark, eye distances."""
-    noise = _NOISE * anchors().spread[:_MESH_LANDMARKS]
+    noise = _NOISE * anchors().spread[:MESH_LANDMARKS]
     noise[[n for lines in LINES.values() for line in lines for n in line]] = _LINE_NOISE
     return np.asarray(noise)
 

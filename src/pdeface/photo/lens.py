@@ -8,14 +8,17 @@ from typing import Any
 from pdeface.errors import InputError, require
 from pdeface.files import PathLike
 
-__all__ = ["focal_length"]
+__all__ = ["DIAGONAL", "focal_length"]
 
 _EXIF, _FOCAL, _FOCAL_35 = 0x8769, 0x920A, 0xA405
 _WIDTH, _HEIGHT, _PER_UNIT, _UNIT = 0xA002, 0xA003, 0xA20E, 0xA210
 _MILLIMETRES = {2: 25.4, 3: 10.0}
 """Of the unit of the sensor's resolution: inches, centimetres."""
 
-_DIAGONAL, _SHORTEST, _LONGEST = 43.267, 8.0, 2000.0
+DIAGONAL = 43.267
+"""Of the frame of 24 x 36 millimetres that focal lengths refer to."""
+
+_SHORTEST, _LONGEST = 8.0, 2000.0
 
 
 def focal_length(path: PathLike) -> float | None:
@@ -51,7 +54,7 @@ def _by_sensor(tags: Any) -> float | None:
     unit = _MILLIMETRES.get(tags.get(_UNIT, 2))
     if not (focal and density and width and height and unit):
         return None
-    return focal * _DIAGONAL / (math.hypot(width, height) / density * unit)
+    return focal * DIAGONAL / (math.hypot(width, height) / density * unit)
 
 
 def _number(value: Any) -> float | None:

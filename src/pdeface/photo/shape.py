@@ -14,15 +14,13 @@ from pdeface.photo.anchors import anchors
 from pdeface.photo.camera import PhotoCamera
 from pdeface.photo.fitting import MESH_LANDMARKS, Fit, basis, fit_view
 from pdeface.photo.found import PhotoFace
+from pdeface.photo.lens import DIAGONAL
 from pdeface.photo.regression import expected_identity
 from pdeface.photo.residual import FACING, at_level, curve_residual, facing, moved
 
 __all__ = ["PhotoShape", "fit_shape", "fit_shapes"]
 
 FloatArray = NDArray[np.float64]
-
-_DIAGONAL = 43.267
-"""Of the frame of 24 x 36 millimetres that focal lengths refer to."""
 
 _MOST = 3.0
 
@@ -131,6 +129,6 @@ def _pixels(faces: Sequence[PhotoFace], focals: Sequence[float | None]) -> list[
                 "it is not known"
             )
     return [
-        None if focal is None else focal / _DIAGONAL * float(np.hypot(*face.image_size))
+        None if focal is None else focal / DIAGONAL * float(np.hypot(*face.image_size))
         for face, focal in zip(faces, focals, strict=True)
     ]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from pdeface.texture._fill import extend
 from pdeface.texture._lattice import outline
+from pdeface.texture._smooth import step
 from pdeface.texture.warp import Engine, warp
 
 __all__ = ["finish", "hair_beside", "trust"]
@@ -54,7 +55,7 @@ def trust(uv: FloatArray, shape: tuple[int, int], hair: tuple[bool, bool]) -> Fl
     sides = np.ones(shape)
     for edge, column, sign, seen in ((right, 0, 1.0, hair[0]), (left, -1, -1.0, hair[1])):
         inside = _fade(sign * (v - edge[:, None]) / np.pi)
-        beside = _smooth_step((1.0 - u / uv[0, column, 0]) / HAIRLINE)[:, None]
+        beside = step(0.0, 1.0, (1.0 - u / uv[0, column, 0]) / HAIRLINE)[:, None]
         sides *= np.maximum(inside, beside) if seen else inside
     return np.asarray(sides * _fade(chin - u[:, None]))
 
@@ -144,17 +145,12 @@ def _like_skin(colours: NDArray[Any], known: NDArray[Any], brow: float) -> NDArr
     # Never nothing: where all is unlike, all counts alike.
     like = np.maximum(np.exp(-(apart**2)), 1e-3)
     u = np.arange(0.5, len(colours)) / len(colours)
-    above = _smooth_step((1.0 - u / brow) / HAIRLINE)[:, None]
+    above = step(0.0, 1.0, (1.0 - u / brow) / HAIRLINE)[:, None]
     return np.asarray(above + (1.0 - above) * like, dtype=np.float32)
 
 
 def _fade(inside: FloatArray) -> FloatArray:
-    return _smooth_step((inside - INSET) / FADE)
-
-
-def _smooth_step(t: FloatArray) -> FloatArray:
-    t = np.clip(t, 0.0, 1.0)
-    return np.asarray(t * t * (3.0 - 2.0 * t))
+    return np.asarray(step(INSET, INSET + FADE, inside), dtype=np.float64)
 
 
 def _frame(shape: tuple[int, ...]) -> FloatArray:

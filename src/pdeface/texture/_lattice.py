@@ -14,6 +14,7 @@ from pdeface import template
 from pdeface.texture import _meshes, _spline
 from pdeface.texture._grid import ScaledGrid
 from pdeface.texture._point_checks import POINT_NAMES
+from pdeface.texture._smooth import step
 
 __all__ = ["lattice_names", "outline", "photo_lattice"]
 
@@ -111,14 +112,9 @@ def _lips_apart(
     upper, lower = template.row_u("mouth_seam_upper"), template.row_u("mouth_seam_lower")
     across = (2.0 * x - corners.sum()) / (corners[1] - corners[0])
     ellipse = np.sqrt(np.clip(1.0 - across**2, 0.0, None))
-    above = _smooth_step((u - uv[2, 2, 0]) / (upper - uv[2, 2, 0])) * (u <= upper + 1e-9)
-    below = _smooth_step((uv[4, 2, 0] - u) / (uv[4, 2, 0] - lower)) * (u >= lower - 1e-9)
+    above = step(0.0, 1.0, (u - uv[2, 2, 0]) / (upper - uv[2, 2, 0])) * (u <= upper + 1e-9)
+    below = step(0.0, 1.0, (uv[4, 2, 0] - u) / (uv[4, 2, 0] - lower)) * (u >= lower - 1e-9)
     return ellipse * (opening[1] * below - opening[0] * above)[:, None]
-
-
-def _smooth_step(t: FloatArray) -> FloatArray:
-    t = np.clip(t, 0.0, 1.0)
-    return np.asarray(t * t * (3.0 - 2.0 * t))
 
 
 def _hold(knots: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
