@@ -38,8 +38,27 @@ def test_splitting_keeps_the_whole_and_parts_nothing_beyond_the_corners(upper_sh
     samples = np.random.default_rng(0).normal(size=(217, 184, 3))
     mouth = Opening("mouth_seam_upper", "mouth_seam_lower", 1.2, np.pi - 1.2, 5.0, upper_share)
     smooth, parting = split(samples, v, [mouth])
-    np.testing.assert_allclose(smooth + parting, samples, atol=1e-15)
+    outside = np.r_[: 8 * 18 + 1, 8 * 19 : 217]
+    np.testing.assert_allclose((smooth + parting)[outside], samples[outside], atol=1e-15)
+    far = (v < 1.1) | (v > np.pi - 1.1)
+    np.testing.assert_allclose((smooth + parting)[:, far], samples[:, far], atol=1e-15)
     inside = (v > 1.4) & (v < np.pi - 1.4)
     np.testing.assert_allclose(smooth[144, inside], smooth[152, inside], atol=1e-12)
     assert not parting[:, (v < 1.2) | (v > np.pi - 1.2)].any()
     assert not parting[: 8 * 13].any()
+
+
+def test_what_lies_between_the_lips_is_bridged_and_parts_evenly() -> None:
+    from pdeface.controls.build.openings import Opening, split
+
+    v = np.linspace(0.0, np.pi, 184)
+    rows = np.linspace(0.0, 27.0, 217)[:, None, None]
+    jerk = np.where(rows < 18.4, 0.0, -1.0) * np.ones((1, 184, 3))
+    mouth = Opening("mouth_seam_upper", "mouth_seam_lower", 1.2, np.pi - 1.2, 5.0, 0.0, beyond=0.08)
+    smooth, parting = split(jerk, v, [mouth])
+    inside = (v > 1.25) & (v < np.pi - 1.25)
+    assert np.abs(smooth[8 * 18 : 8 * 19 + 1, inside]).max() < 1e-12
+    steps = np.diff(parting[8 * 18 : 8 * 19 + 1, inside], axis=0)
+    np.testing.assert_allclose(steps, -1.0 / 8.0, atol=1e-12)
+    assert parting[8 * 19, (v > 1.13) & (v < 1.2)].any(), "its corners part a little beyond"
+    assert not parting[:, (v < 1.12) | (v > np.pi - 1.12)].any()

@@ -29,6 +29,8 @@ IDENTITY_LEVEL = (28, 46)
 FAIRNESS, DAMPING = 2e-3, 0.5
 STEPS = 32767
 EDGE = 0.6
+# Lips part with a jerk at their corners: at half of the way they are apart where they are one.
+BEYOND = 0.08
 
 
 def main() -> int:
@@ -48,7 +50,7 @@ class Sampler:
         u = np.linspace(0.0, 1.0, SAMPLES[0])
         self._triangle, self._weights = face.chart.anchors(*face.st(u, self.v))
         self.openings = [
-            _opening("mouth_seam_upper", "mouth_seam_lower", face, closed.lips[0], 5.0, 0.0)
+            _opening("mouth_seam_upper", "mouth_seam_lower", face, closed.lips[0], 5.0, 0.0, BEYOND)
         ]
         for lids in closed.lids.values():
             margins = "upper_lid_margin", "lower_lid_margin"
@@ -81,9 +83,10 @@ def _opening(
     line: FloatArray,
     reach: float,
     upper_share: float,
+    beyond: float = 0.0,
 ) -> Opening:
     start, end = sorted(face.uv_of(line[[0, -1]])[:, 1])
-    return Opening(upper, lower, float(start), float(end), reach, upper_share)
+    return Opening(upper, lower, float(start), float(end), reach, upper_share, beyond=beyond)
 
 
 def build(folder: Path, output: Path) -> None:
