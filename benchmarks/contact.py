@@ -43,6 +43,7 @@ def main(head: str | None = None) -> None:
                 said = ", ".join(f"{np.mean(row):.2f}" for row in folds)
                 print(f"{level} on {mesh[0]} x {mesh[1]}, {name}: {max(gaps):.3f} mm; {said}")
     if head is not None:
+        print(f"The measured head itself, shut, by rows x columns: {measured_folds(Path(head))}")
         for level in LEVELS:
             print(f"{level} jawOpen: {overshoot(level, Path(head))}")
 
@@ -60,9 +61,38 @@ def lid_gap(face: pdeface.Face, size: tuple[int, int]) -> float:
 def folded(face: pdeface.Face, size: tuple[int, int]) -> int:
     """Cells whose two triangles face opposite ways."""
     mesh = face.mesh(*size)
-    a, b, c, d = mesh.vertices[mesh.quads].transpose(1, 0, 2)
+    return int(bent(*mesh.vertices[mesh.quads].transpose(1, 0, 2)).sum())
+
+
+def bent(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:
+    """(...) whether the two triangles of cells with these (..., 3) corners face opposite ways."""
     halves = np.cross(b - a, c - a), np.cross(c - a, d - a)
-    return int((np.einsum("ij,ij->i", *halves) < 0.0).sum())
+    return np.asarray(np.einsum("...i,...i", *halves) < 0.0)
+
+
+def measured_folds(head: Path) -> str:
+    """Bent cells about the left eye of the measured head when its lids are shut.
+
+    Cells between its lids do not count, nor does what lies further than the folds of the lids.
+    """
+    from pdeface.controls.build.__main__ import SAMPLES, Sampler
+
+    sampler, expressions = Sampler(head), np.load(head / "expressions.npz")
+    names = [str(name) for name in expressions["names"]]
+    row, eye = np.linspace(0.0, 27.0, SAMPLES[0])[:, None], sampler.openings[2]
+    beside = (sampler.v > eye.start) & (sampler.v < eye.end)
+    counted = (row >= 5) & (row < 11) & (np.abs(sampler.v - 2.2) < 0.4)
+    counted &= ~((row >= 7) & (row < 9) & beside)
+    said = []
+    for company in (("eyeBlink_L",), ("eyeBlink_L", "eyeSquint_L")):
+        offsets = sum(expressions["offsets_cm"][names.index(name)] for name in company)
+        places = sampler.rest + sampler.displacements(offsets)
+        for step in (8, 4, 2):
+            cells = places[::step, ::step]
+            folds = bent(cells[:-1, :-1], cells[1:, :-1], cells[1:, 1:], cells[:-1, 1:])
+            folds &= counted[::step, ::step][:-1, :-1]
+            said.append(f"{cells.shape[0]} x {cells.shape[1]} {'+'.join(company)} {folds.sum()}")
+    return "; ".join(said)
 
 
 def overshoot(level: str, head: Path) -> str:

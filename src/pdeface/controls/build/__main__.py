@@ -39,7 +39,12 @@ def main() -> int:
 
 
 class Sampler:
-    """Moves the samples of the template with its head."""
+    """Moves the samples of the template with its head.
+
+    Attributes:
+        v: (V,) of the samples of a row, radians.
+        openings: the mouth, the right eye and the left.
+    """
 
     def __init__(self, folder: Path) -> None:
         head = load_head(folder)
@@ -58,10 +63,16 @@ class Sampler:
 
     def displacements(self, offsets: FloatArray) -> FloatArray:
         """(U, V, 3) displacements of the samples, metres, from (vertices, 3) in centimetres."""
-        moved = self._scan.links @ (offsets * CENTIMETRE)
-        corners = moved[self._scan.triangles[self._triangle]]
-        moved = np.einsum("qc,qcx->qx", self._weights, corners).reshape(SAMPLES[0], -1, 3)
-        return _closed(moved, self.v)
+        return _closed(self._sampled(self._scan.links @ (offsets * CENTIMETRE)), self.v)
+
+    @property
+    def rest(self) -> FloatArray:
+        """(U, V, 3) where the samples lie at rest, metres."""
+        return self._sampled(self._scan.vertices)
+
+    def _sampled(self, values: FloatArray) -> FloatArray:
+        corners = values[self._scan.triangles[self._triangle]]
+        return np.einsum("qc,qcx->qx", self._weights, corners).reshape(SAMPLES[0], -1, 3)
 
 
 def _closed(moved: FloatArray, v: FloatArray) -> FloatArray:
