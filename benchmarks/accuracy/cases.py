@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 
 import pdeface
+from benchmarks.accuracy.likeness import image_difference
 from benchmarks.accuracy.makehuman import makehuman
 from benchmarks.accuracy.scans import Randoms, Subject
 from benchmarks.accuracy.scoring import Score
-from pdeface.photo import PhotoFace, find_faces, fit_shapes
+from pdeface.photo import PhotoFace, find_faces, photo_views
 from pdeface.photo.build.samples import random_expression
 from pdeface.photo.build.scenes import Scene, photograph
 from pdeface.photo.build.skins import Skin, random_skin
@@ -40,6 +41,7 @@ class Result:
             landmarks, and of the neutral face as it is.
         error: reprojection, shares of the eye distance.
         most: the largest identity weight.
+        image: how far the pictures drawn of the face differ from those taken, 0 to 1.
     """
 
     group: str
@@ -50,6 +52,7 @@ class Result:
     neutral: Score
     error: float
     most: float
+    image: float
 
 
 def subjects(folder: Path, model: Path, people: int) -> Iterator[tuple[str, Subject]]:
@@ -108,17 +111,20 @@ def _result(
 ) -> Result | None:
     """None where MediaPipe finds no face."""
     found: list[PhotoFace] = []
-    for scene in scenes:
-        faces = find_faces(photograph(subject.head, skin, scene, canvas), model)
+    photos = [photograph(subject.head, skin, scene, canvas) for scene in scenes]
+    for photo in photos:
+        faces = find_faces(photo, model)
         if not faces:
             return None
         found.append(faces[0])
-    shapes = fit_shapes(found, [_focal(scene) for scene in scenes])
+    views = photo_views(photos, found, [_focal(scene) for scene in scenes])
+    shapes = [view.shape for view in views]
     error = float(np.sqrt(np.mean([shape.error**2 for shape in shapes])))
     most = max(map(abs, shapes[0].identity.values()))
     fitted = Score(shapes[0].face, subject.scan)
-    views = "three" if len(scenes) > 1 else f"{abs(scenes[0].yaw):.0f}"
-    return Result(group, subject.name, views, fitted, *bases, error, most)
+    name = "three" if len(scenes) > 1 else f"{abs(scenes[0].yaw):.0f}"
+    image = image_difference(views)
+    return Result(group, subject.name, name, fitted, *bases, error, most, image)
 
 
 def _focal(scene: Scene) -> float:

@@ -12,7 +12,14 @@ pytest.importorskip("scipy", reason="needs the extra 'template'")
 from pdeface.photo import portrait_face
 from pdeface.photo.build import learning
 from pdeface.photo.build.learning import Rows, learn, mirror_signs, partners, write
-from pdeface.photo.regression import Learnt, expected_identity, features, learnt, levelled
+from pdeface.photo.regression import (
+    Learnt,
+    expected_identity,
+    features,
+    learnt,
+    levelled,
+    regressors,
+)
 
 
 def test_what_ships_has_the_shapes_it_says() -> None:
@@ -20,9 +27,21 @@ def test_what_ships_has_the_shapes_it_says() -> None:
     ways, others = len(known.modes), len(known.centre)
     assert known.mean.shape == (478, 3)
     assert known.modes.shape == (ways, 3 * 478)
-    assert known.readout.shape == (2, 1 + ways + others, 50)
+    inputs = regressors(np.zeros((1, ways)), np.zeros((1, others)))
+    assert known.readout.shape == (2, inputs.shape[1], 50)
     assert known.variance.shape == known.common.shape == (50, 50)
     assert np.linalg.eigvalsh(known.variance).min() > 0.0
+
+
+def test_ways_count_by_pose_as_well() -> None:
+    known = learnt()
+    ways, others = np.zeros(len(known.modes)), np.zeros(len(known.centre))
+    ways[3] = 2.0
+    ahead = regressors(ways, others)
+    others[0] = 0.5
+    aside = regressors(ways, others)
+    changed = np.flatnonzero(ahead != aside)
+    np.testing.assert_allclose(sorted(aside[changed]), [0.5, 1.0])
 
 
 def test_levelling_undoes_turn_size_and_place() -> None:

@@ -42,6 +42,16 @@ class View(NamedTuple):
         scaled = fractions * (*self.size, self.size[0])
         return np.asarray(scaled + (*self.corner, 0.0))
 
+    @property
+    def mirrored(self) -> View:
+        """Its mirror image, in the same place of the photo."""
+        return self._replace(pixels=self.pixels[:, ::-1])
+
+    @property
+    def middle(self) -> float:
+        """x of its middle in the photo, pixels."""
+        return self.corner[0] + 0.5 * self.size[0]
+
     def enlarged(self, x: float, y: float) -> View:
         """The view of a smaller copy of the photo, as one of the photo."""
         corner, size = (

@@ -9,6 +9,7 @@ to the lines along which a mesh is cut, wherever the calibration has them.
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from types import MappingProxyType
 from typing import NamedTuple
@@ -94,7 +95,8 @@ def seen(found: PhotoFace, shape: PhotoShape) -> Seen:
     off = (found.landmarks[:MESH_LANDMARKS, :2] - camera.project(on_face)) / eye
     covariance = _covariance(on_apart, on_apart)
     weights = np.linalg.solve(covariance + np.diag(_noise() ** 2), off)
-    field = np.concatenate([_covariance(row, on_apart) @ weights for row in apart])
+    with ThreadPoolExecutor() as pool:  # numpy lets threads run
+        field = np.array(list(pool.map(lambda row: _covariance(row, on_apart) @ weights, apart)))
     places = camera.project(points) + eye * field.reshape(*GRID, 2)
     left = off - covariance @ weights
     return Seen(

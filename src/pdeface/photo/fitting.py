@@ -8,8 +8,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.controls import CONTROLS
+from pdeface.controls import CONTROLS, slits
 from pdeface.face import neutral
+from pdeface.pde.scattered import point_weights
 from pdeface.photo.anchors import anchors
 from pdeface.photo.camera import PARAMETERS, PhotoCamera
 from pdeface.photo.found import PhotoFace
@@ -77,12 +78,14 @@ class Fit:
 def basis() -> Basis:
     """The landmarks' places on the neutral face, and their displacements by its controls."""
     face = neutral()
-    u, v = anchors().uv[:MESH_LANDMARKS].T
+    shape, places = face.curves.shape, anchors().uv[:MESH_LANDMARKS].T
     kinds = {k: [n for n, c in CONTROLS.items() if c.kind == k] for k in ("identity", "expression")}
     names = (*kinds["identity"], *kinds["expression"])
-    middle = face.surface()(u, v)
-    moved = np.array([face.with_weights({name: 1.0}).surface()(u, v) for name in names])
-    return Basis(names, len(kinds["identity"]), middle, moved - middle)
+    smooth, slit = (point_weights(shape, *places, continuity=c) for c in ({}, slits(shape[0])))
+    by = [face.with_weights({name: 1.0}).displacement for name in names]
+    moves = [smooth @ d.smooth.reshape(-1, 3) + slit @ d.parting.reshape(-1, 3) for d in by]
+    middle = smooth @ face.curves.points.reshape(-1, 3)
+    return Basis(names, len(kinds["identity"]), middle, np.array(moves))
 
 
 def fit_view(face: PhotoFace, rest: FloatArray, focal: float | None = None) -> Fit:

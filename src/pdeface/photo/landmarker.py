@@ -17,9 +17,10 @@ from pdeface.errors import InputError, require
 from pdeface.files import PathLike
 from pdeface.photo import _views
 from pdeface.photo.found import PhotoFace
+from pdeface.photo.mirrors import evened, unmirrored
 from pdeface.photo.model import model_file
 
-__all__ = ["faces_in", "find_faces", "glances", "landmarker"]
+__all__ = ["faces_both_ways", "faces_in", "find_faces", "glances", "landmarker"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -32,7 +33,8 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
     """The faces in a photo, the largest first; an empty list where there is none.
 
     The whole photo and its halves are looked at first. Where that shows nothing, so are the photo
-    with a margin (for a face that fills it) and then its quarters (for a small face).
+    with a margin (for a face that fills it) and then its quarters (for a small face). What is found
+    is looked at again from near by, and in the mirror as well.
 
     Args:
         photo: (H, W, 3 or 4) uint8, upright, as :func:`pdeface.texture.read_photo` returns it.
@@ -51,7 +53,7 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
             faces = faces_in(views, detect, pixels.shape)
             # Many looks find many things. A face is one also when it is looked at alone.
             closer = [_views.around(face, pixels) for face in _views.distinct(faces)]
-            if faces := _views.distinct(faces_in(closer, detect, pixels.shape)):
+            if faces := _views.distinct(faces_both_ways(closer, detect, pixels.shape)):
                 return faces
     return []
 
@@ -145,6 +147,19 @@ def faces_in(views: Iterable[_views.View], detect: Any, shape: tuple[int, ...]) 
             places = view.to_photo(fractions)
             matrix = np.asarray(pose, dtype=np.float64)
             faces.append(PhotoFace(places, names, matrix, (shape[1], shape[0])))
+    return faces
+
+
+def faces_both_ways(
+    views: Iterable[_views.View], detect: Any, shape: tuple[int, ...]
+) -> list[PhotoFace]:
+    """As :func:`faces_in`, each view being looked at in the mirror as well."""
+    faces: list[PhotoFace] = []
+    for view in views:
+        mirrored = faces_in([view.mirrored], detect, shape)
+        faces += evened(
+            faces_in([view], detect, shape), [unmirrored(face, view.middle) for face in mirrored]
+        )
     return faces
 
 

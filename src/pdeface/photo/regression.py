@@ -1,11 +1,11 @@
 """Which person landmarks most likely belong to, learnt from pictures of heads that are known.
 
 The landmarks, with their depths, are turned, scaled and moved onto the mean of all faces. The
-principal ways in which they then differ from it, the pose, the detector's scores and, where the
-focal length is known, how near the camera is, are mapped to weights of the identity modes by a
-ridge regression. What the detector gets wrong in the same way every time is so taken out, and what
-it cannot see is left at the mean. The numbers in ``data/identity.npz`` were learnt by
-``python -m pdeface.photo.build identity``.
+principal ways in which they then differ from it, the same by how far the head is turned, the pose,
+the detector's scores and, where the focal length is known, how near the camera is, are mapped to
+weights of the identity modes by a ridge regression. What the detector gets wrong in the same way
+every time is so taken out, and what it cannot see is left at the mean. The numbers in
+``data/identity.npz`` were learnt by ``python -m pdeface.photo.build identity``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,15 @@ from numpy.typing import NDArray
 from pdeface.controls import CONTROLS
 from pdeface.photo.found import PhotoFace
 
-__all__ = ["IDENTITY", "Learnt", "expected_identity", "features", "levelled", "score_names"]
+__all__ = [
+    "IDENTITY",
+    "Learnt",
+    "expected_identity",
+    "features",
+    "levelled",
+    "regressors",
+    "score_names",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -32,6 +40,9 @@ _FLIP = (1.0, -1.0, -1.0)
 
 _UNSEEN = "tongueOut"
 
+_POSED, _POSES = 60, (0, 1, 2)
+"""How many ways count differently by pose, and which features say so: yaw, pitch, yaw squared."""
+
 
 class Learnt(NamedTuple):
     """What was learnt.
@@ -41,8 +52,8 @@ class Learnt(NamedTuple):
         modes: (k, 1434) principal ways in which they differ, each over its standard deviation.
         centre, spread: (f,) mean and standard deviation of the other features: six of the pose,
             the scores by name, and how near the camera is.
-        readout: (2, 1 + k + f, 50) the identity by the features, the first being 1: without and
-            with the focal length.
+        readout: (2, r, 50) the identity by the regressors (:func:`regressors`): without and with
+            the focal length.
         variance: (50, 50) covariance of the identity that is read out of one photo.
         common: (50, 50) the same between what is read out of two photos of one person.
     """
@@ -81,11 +92,22 @@ def expected_identity(faces: Sequence[PhotoFace], focals: Sequence[float | None]
         others = (rest - known.centre) / known.spread
         if focal is None:
             others[-1] = 0.0
-        row = np.concatenate([[1.0], ways, others])
-        read.append(row @ known.readout[int(focal is not None)])
+        read.append(regressors(ways, others) @ known.readout[int(focal is not None)])
     share = 1.0 / len(read)
     sure = share * known.variance + (1.0 - share) * known.common
     return np.asarray(known.variance @ np.linalg.solve(sure, np.mean(read, axis=0)))
+
+
+def regressors(ways: FloatArray, others: FloatArray) -> FloatArray:
+    """(..., r) what the identity is linear in: 1, all features, and ways by pose.
+
+    Args:
+        ways: (..., k) how far the landmarks differ in each principal way.
+        others: (..., f) the other features, standardised.
+    """
+    one = np.ones((*ways.shape[:-1], 1))
+    posed = [ways[..., :_POSED] * others[..., at, None] for at in _POSES]
+    return np.concatenate([one, ways, others, *posed], axis=-1)
 
 
 def features(

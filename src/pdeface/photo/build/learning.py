@@ -16,7 +16,7 @@ from pdeface.controls.measured import IDENTITIES, identities
 from pdeface.files import atomic_path
 from pdeface.photo.build.samples import Numbers
 from pdeface.photo.found import PhotoFace
-from pdeface.photo.regression import Learnt, features, levelled, score_names
+from pdeface.photo.regression import Learnt, features, levelled, regressors, score_names
 
 __all__ = ["Rows", "learn", "mean_landmarks", "rows_of", "write"]
 
@@ -111,9 +111,9 @@ def learn(rows: Rows, mean: FloatArray) -> tuple[Learnt, FloatArray]:
     centre, spread = rows.others.mean(axis=0), rows.others.std(axis=0)
     spread = np.where(spread > 0.0, spread, 1.0)
     others = (rows.others - centre) / spread
-    full = np.hstack([np.ones((len(others), 1)), rows.marks @ modes.T, others])
-    blind = full.copy()
-    blind[:, -1] = 0.0
+    unfocused = others.copy()
+    unfocused[:, -1] = 0.0
+    full, blind = (regressors(rows.marks @ modes.T, each) for each in (others, unfocused))
     readout = np.array([_ridge(x, rows.identity) for x in (blind, full)])
     held = np.zeros_like(rows.identity)
     for fold in range(FOLDS):

@@ -11,7 +11,7 @@ from pdeface.photo.build.samples import Numbers, sample
 
 __all__ = ["ROUNDS", "sample_rounds"]
 
-ROUNDS = 4
+ROUNDS = 8
 _PICTURES, _OFTEN = 900, 3
 _PAIRED = 2
 """In the first rounds each person is seen three times, to learn what photos agree on; after them

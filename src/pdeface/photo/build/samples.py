@@ -14,7 +14,7 @@ from pdeface.photo.build.heads import HeadSpace
 from pdeface.photo.build.scenes import Scene, photograph, random_scene
 from pdeface.photo.build.skins import random_skin
 from pdeface.photo.found import PhotoFace
-from pdeface.photo.landmarker import faces_in, landmarker
+from pdeface.photo.landmarker import faces_both_ways, faces_in, landmarker
 from pdeface.pictures.raster_vtk import Canvas
 
 __all__ = ["random_expression", "sample"]
@@ -77,7 +77,7 @@ def found_in(picture: NDArray[np.uint8], detect: Any) -> PhotoFace | None:
     """The face in a picture of one face, looked at alone, as photos are."""
     whole = _views.View(picture, (0.0, 0.0), (picture.shape[1], picture.shape[0]))
     for face in faces_in([whole], detect, picture.shape)[:1]:
-        for closer in faces_in([_views.around(face, picture)], detect, picture.shape)[:1]:
+        for closer in faces_both_ways([_views.around(face, picture)], detect, picture.shape)[:1]:
             return closer
     return None
 
