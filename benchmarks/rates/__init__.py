@@ -1,1 +1,1 @@
-"""How many bytes a face takes, beside a mesh codec and a B-spline: ``python -m benchmarks.rates``."""
+"""Bytes that a face takes beside a mesh codec and a B-spline: ``python -m benchmarks.rates``."""

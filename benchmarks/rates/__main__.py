@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.rates.codecs import LEVELS, Point, compact_files, draco_files, spline
+from benchmarks.rates.figure import draw
 from benchmarks.rates.truth import Errors, Truth, front_of, surface_of
 from benchmarks.scans import ict_heads, makehuman_heads
 from pdeface.scan import ScanFit, fit_scan
@@ -96,6 +97,8 @@ def main(arguments: list[str] | None = None) -> None:
         print(f"\n{group}: without quantisation\n{splines(smooth)}\n", flush=True)
     if options.json:
         options.json.write_text(json.dumps(files))
+    if options.figure:
+        draw(files, best, options.figure)
 
 
 if __name__ == "__main__":

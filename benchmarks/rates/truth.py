@@ -23,7 +23,7 @@ ROWS, COLUMNS = 271, 241
 RIM_V, RIM_U = 0.08, 0.03
 ON_EDGE = 1e-6
 NEAR, BRIDGE, ALIKE = 5.0e-3, 0.5e-3, 0.5
-"""Metres, and cosine of an angle, beyond which a place of the scan is none of the face's outside."""
+"""Metres, and cosine of an angle, beyond which a place is none of the face's outside."""
 
 
 class Mesh(NamedTuple):
@@ -73,7 +73,7 @@ class Truth:
         return Errors(1e3 * float(np.sqrt(both)), float(np.median(angle)))
 
     def beside(self, triangle: np.ndarray, feet: np.ndarray) -> np.ndarray:
-        """Whether nearest places are on edges of the mesh: of what lies beside it, or over a hole."""
+        """Whether nearest places are on edges of the mesh: nearest to what lies beyond them."""
         return ((shares(self.mesh, triangle, feet) < ON_EDGE) & self.open[triangle]).any(axis=1)
 
 
@@ -148,7 +148,9 @@ def shares(mesh: Mesh, triangle: np.ndarray, feet: np.ndarray) -> np.ndarray:
 def edges(triangles: np.ndarray) -> np.ndarray:
     """(T, 3) whether the side opposite to each corner belongs to one triangle alone."""
     sides = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]], 1))
-    _, which, count = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True, return_counts=True)
+    _, which, count = np.unique(
+        sides.reshape(-1, 2), axis=0, return_inverse=True, return_counts=True
+    )
     return count[which].reshape(-1, 3) == 1
 
 
