@@ -77,7 +77,7 @@ def coded(name: str, mesh: Mesh, truth: Truth, texcoords: bool) -> Iterator[Poin
             mesh.triangles.astype(np.uint32),
             quantization_bits=bits,
             compression_level=10,
-            tex_coord=mesh.uv.astype(np.float32) if texcoords and mesh.uv is not None else None,
+            tex_coord=mesh.uv if texcoords and mesh.uv is not None else None,
             tex_coord_quantization_bits=TEXCOORD_BITS,
         )
         read = DracoPy.decode(data)

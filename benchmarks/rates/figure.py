@@ -19,6 +19,7 @@ LOOKS = {
 }
 SIZES = np.geomspace(80, 8000, 160)
 WHAT = "RMS distance, both ways, mm", "normals, median degrees"
+LIMITS = (0.03, 2.0), (0.3, 12.0)
 
 
 def draw(
@@ -41,9 +42,10 @@ def draw(
                 ax.plot(SIZES[there], np.array(errors)[there], color=color, ls=dashes, lw=width,
                         label=label)  # fmt: skip
             _dress(ax, f"{len(heads)} heads of {group}", WHAT[what])
+            ax.set_ylim(LIMITS[what])
     for ax in axes[-1]:
         ax.set_xlabel("bytes")
-    axes[0, 0].legend(frameon=False, loc="upper right")
+    axes[0, 0].legend(frameon=False, loc="lower left")
     figure.tight_layout()
     with atomic_path(path) as temporary:
         figure.savefig(temporary, dpi=110, format=path.suffix[1:])

@@ -120,7 +120,8 @@ def flat(grid: NDArray[np.floating]) -> FloatArray:
 def _parts(scan: Scan) -> tuple[IndexArray, FloatArray]:
     """(P,) triangles, the large ones several times, and (P, 3) places in them."""
     corner = scan.vertices[scan.triangles]
-    longest = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
+    sides = [((corner[:, k] - corner[:, k - 1]) ** 2).sum(axis=1) for k in range(3)]
+    longest = np.sqrt(np.maximum(np.maximum(sides[0], sides[1]), sides[2]))
     times = np.ceil(longest / max(_FINEST, scan.spacing)).clip(1, _MOST_PARTS).astype(np.int64)
     owners, weights = [], []
     for n in np.unique(times).tolist():

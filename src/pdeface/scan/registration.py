@@ -13,6 +13,7 @@ from pdeface.scan.laying import lay, met
 from pdeface.scan.model import IDENTITIES, Grid, grid
 from pdeface.scan.nearest import Target
 from pdeface.scan.surface import Scan
+from pdeface.scan.thinning import thinned
 
 __all__ = ["Registered", "register"]
 
@@ -31,6 +32,8 @@ _WORTH = 0.05
 """What one sample of the surface counts in the identity: neighbours err together."""
 
 _LANDMARK = 0.02
+_MANY, _COARSEST = 100_000, 1.0e-3
+"""Vertices from which on identity is found by one of them a cube of so many metres."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +67,7 @@ def register(
         weights: first identity.
         rounded: as for :func:`pdeface.scan.laying.lay`.
     """
-    target = Target(scan, _BREADTH)
+    target = Target(thinned(scan, _COARSEST) if len(scan.vertices) > _MANY else scan, _BREADTH)
     rotation, shift, weights = identity(target, landmarks, weights)
     scan = scan.moved(rotation, 1.0, shift)
     points = landmarks.points @ rotation.T + shift

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,16 +53,25 @@ class Scan:
         """(V, 3) unit normals; outwards if the triangles say so, of a cloud either way."""
         if self.given_normals is not None:
             return unit(self.given_normals)
-        return _of_cloud(self.vertices) if self.is_cloud else self._of_triangles()
+        return _of_cloud(self.vertices, self._tree) if self.is_cloud else self._of_triangles()
+
+    @property
+    def _found_normals(self) -> FloatArray | None:
+        """Normals that were given or worked out before."""
+        return self.__dict__.get("normals", self.given_normals)
+
+    @cached_property
+    def _tree(self) -> Any:
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.vertices, balanced_tree=False, compact_nodes=False)
 
     @cached_property
     def spacing(self) -> float:
         """Median distance between neighbouring vertices."""
         if self.is_cloud:
-            from scipy.spatial import cKDTree
-
             some = self.vertices[:: max(1, len(self.vertices) // 5000)]
-            return float(np.median(cKDTree(self.vertices).query(some, 2)[0][:, 1]))
+            return float(np.median(self._tree.query(some, 2)[0][:, 1]))
         corners = self.triangles[:: max(1, len(self.triangles) // 20000)]
         edges = self.vertices[corners] - self.vertices[np.roll(corners, 1, axis=1)]
         return float(np.median(np.linalg.norm(edges, axis=-1)))
@@ -80,7 +90,7 @@ class Scan:
 
     def moved(self, rotation: FloatArray, scale: float, shift: FloatArray) -> Scan:
         """The scan at ``scale * vertices @ rotation.T + shift``."""
-        given = self.given_normals
+        given = self._found_normals
         turned = None if given is None else given @ rotation.T
         vertices = scale * self.vertices @ rotation.T + shift
         return replace(self, vertices=vertices, given_normals=turned)
@@ -89,7 +99,7 @@ class Scan:
         """Only these vertices, and the triangles with so many corners among them, whole."""
         whole = np.zeros(0, bool)
         if len(self.triangles):
-            whole = kept[self.triangles].sum(axis=1) >= corners
+            whole = sum(kept[corner].astype(np.int8) for corner in self.triangles.T) >= corners
             kept = kept.copy()
             kept[self.triangles[whole]] = True
         index = np.cumsum(kept) - 1
@@ -103,8 +113,9 @@ class Scan:
             own(self.colors),
             own(self.texcoords),
             self.image,
-            # What was worked out on the whole stays right at the edge of the part.
-            own(self.normals),
+            # What was worked out on the whole stays right at the edge of the part; for a large
+            # cloud it would take long.
+            own(self._found_normals if self.is_cloud else self.normals),
         )
 
     def inside_out(self) -> Scan:
@@ -125,16 +136,31 @@ def same_places(vertices: FloatArray) -> IndexArray:
     return np.asarray(first[inverse])
 
 
-def _of_cloud(points: FloatArray) -> FloatArray:
+def _of_cloud(points: FloatArray, tree: Any) -> FloatArray:
     """Normals of planes through the neighbours of each point (either way round)."""
-    from scipy.spatial import cKDTree
-
-    tree = cKDTree(points)
     normals = np.empty_like(points)
     count = min(_NEIGHBOURS, len(points))
     for start in range(0, len(points), 100_000):
         some = slice(start, start + 100_000)
-        near = points[tree.query(points[some], count)[1].reshape(-1, count)]
+        near = points[tree.query(points[some], count, workers=-1)[1].reshape(-1, count)]
         away = near - near.mean(axis=1, keepdims=True)
-        normals[some] = np.linalg.eigh(away.swapaxes(1, 2) @ away)[1][:, :, 0]
+        normals[some] = flattest(away.swapaxes(1, 2) @ away)
     return normals
+
+
+def flattest(spreads: FloatArray) -> FloatArray:
+    """(n, 3) unit eigenvectors of the smallest eigenvalue of (n, 3, 3) symmetric matrices.
+
+    In closed form, by the cosines of a third of an angle (Smith 1961), many times faster than a
+    solver called n times: the eigenvector is the largest of the columns of the adjugate.
+    """
+    mean = np.trace(spreads, axis1=1, axis2=2) / 3.0
+    off = spreads - mean[:, None, None] * np.eye(3)
+    size = np.sqrt((off**2).sum(axis=(1, 2)) / 6.0)
+    size = np.where(size > 0.0, size, 1.0)
+    angle = np.arccos((0.5 * np.linalg.det(off / size[:, None, None])).clip(-1.0, 1.0)) / 3.0
+    smallest = 2.0 * np.cos(angle + 2.0 * np.pi / 3.0)
+    a, b, c = (off / size[:, None, None] - smallest[:, None, None] * np.eye(3)).swapaxes(0, 1)
+    crosses = np.stack([np.cross(a, b), np.cross(b, c), np.cross(c, a)], axis=1)
+    best = (crosses**2).sum(axis=2).argmax(axis=1)
+    return unit(crosses[np.arange(len(crosses)), best])
