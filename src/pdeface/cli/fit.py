@@ -111,7 +111,7 @@ def fit(
     )
     from pdeface.formats import SUFFIXES
     from pdeface.pictures.image_file import FORMATS as PICTURES
-    from pdeface.scan.fitting import check_level
+    from pdeface.scan.levels import check_level
 
     check_level(how.level)
     report = Report(quiet)

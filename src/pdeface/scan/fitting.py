@@ -9,20 +9,17 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.curves import BoundaryCurves, mirror_points
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.files import PathLike
-from pdeface.pde.fit import fit_curves
 from pdeface.scan.alignment import Alignment, Landmarks, align
 from pdeface.scan.landmarks import find_landmarks
+from pdeface.scan.levels import check_level, fit_level
 from pdeface.scan.registration import Registered, register
 from pdeface.scan.surface import Scan
 from pdeface.scan.visible import outside
-from pdeface.template import neutral_curves
-from pdeface.template.layout import PAPER_ROWS
 
-__all__ = ["ScanFit", "Units", "check_level", "fit_level", "fit_scan"]
+__all__ = ["ScanFit", "Units", "fit_scan"]
 
 FloatArray = NDArray[np.float64]
 Progress = Callable[[str], None]
@@ -33,9 +30,6 @@ EYES_APART = 0.063
 """Metres between the pupils of a usual adult, where the scan's unit is none that is known."""
 
 _HUMAN = 0.045, 0.085
-_MOST = 217, 368
-"""Curves and points that the samples of a scan can tell apart."""
-
 _WORST = 7.0e-3
 _MET = 0.35
 _LEAST_FOUND = 0.3
@@ -127,47 +121,6 @@ def fit_scan(
     rotation = registered.rotation @ alignment.rotation
     shift = registered.rotation @ alignment.shift + registered.shift
     return ScanFit(face, registered, rotation, alignment.scale, shift, unit)
-
-
-def fit_level(samples: FloatArray, level: tuple[int, int]) -> BoundaryCurves:
-    """Curves of a level nearest to (U, V, 3) samples of a face on its grid.
-
-    Raises:
-        InputError: a level that there is not.
-    """
-    check_level(level)
-    mirror_z = neutral_curves().mirror_z
-    fairness, damping = _stiffness(level[0])
-    closed = mirror_points(samples, mirror_z)
-    points = fit_curves(closed, level, fairness=fairness, damping=damping)
-    return BoundaryCurves.from_half(points[:, : level[1] // 2], mirror_z)
-
-
-def check_level(level: tuple[int, int]) -> None:
-    """Refuse levels at which no curves lie on lids and lips, or that are finer than the samples.
-
-    Raises:
-        InputError: such a level.
-    """
-    curves, points = level
-    if curves < PAPER_ROWS or (curves - 1) % (PAPER_ROWS - 1) or curves > _MOST[0]:
-        raise InputError(
-            f"a level has 27 n + 1 curves, 28 to {_MOST[0]}, got {curves}; try 28x46, 55x92 or "
-            "109x184"
-        )
-    if points % 2 or not 16 <= points <= _MOST[1]:
-        raise InputError(
-            f"curves have an even number of points, 16 to {_MOST[1]}, got {points}; try 28x46, "
-            "55x92 or 109x184"
-        )
-
-
-def _stiffness(curves: int) -> tuple[float, float]:
-    """Fairness and damping, those with which the neutral face was measured, and between them."""
-    known = np.log([28.0, 55.0, 109.0])
-    fairness = np.exp(np.interp(np.log(curves), known, np.log([2e-2, 5e-3, 5e-3])))
-    damping = np.exp(np.interp(np.log(curves), known, np.log([0.5, 1.0, 4.0])))
-    return float(fairness), float(damping)
 
 
 def _unit(first: Alignment, units: Units | None) -> tuple[Units | None, float]:
