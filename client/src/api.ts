@@ -1,8 +1,12 @@
 // What is asked of the server. Every error is an Error whose message is a line for the page.
 
-import type { ArrayInfo, ClipInfo, ExportRequest, FaceInfo, Opened, PhotoInfo, Schema } from "./schema";
+import type { ArrayInfo, ClipInfo, ExportRequest, FaceInfo, Opened, PhotoInfo, PhotosInfo, Schema } from "./schema";
 
 export type Weights = Readonly<Record<string, number>>;
+// Feature points by name, pixels of a photo.
+export type Points = Readonly<Record<string, readonly number[]>>;
+// Read through the fitted face, or the paper's five steps.
+export type TextureWay = "project" | "warp";
 export interface Size {
   readonly rows: number;
   readonly columns: number;
@@ -58,6 +62,7 @@ async function packet(answer: Promise<Response>): Promise<Packet> {
 }
 
 const face = (id: string) => `/api/faces/${encodeURIComponent(id)}`;
+const photo = (id: string) => `/api/photos/${encodeURIComponent(id)}`;
 const query = ({ rows, columns }: Size) => `rows=${rows}&columns=${columns}`;
 
 export const api = {
@@ -84,12 +89,16 @@ export const api = {
     (await post(`${face(id)}/export`, request)).blob(),
   open: (file: Blob) => json<Opened>(post("/api/open", file)),
   clip: (name: string) => json<ClipInfo>(ask(`/api/clips/${encodeURIComponent(name)}`)),
-  bundledPhoto: () => json<PhotoInfo>(ask("/api/photos/bundled")),
-  photoUrl: (id: string) => `/api/photos/${encodeURIComponent(id)}`,
-  warp: async (id: string, points: Record<string, readonly number[]>) =>
-    (await post(`/api/photos/${encodeURIComponent(id)}/warp`, { points })).blob(),
-  pointsFile: async (id: string, points: Record<string, readonly number[]>) =>
-    (await post(`/api/photos/${encodeURIComponent(id)}/points`, { points })).blob(),
-  applyPhoto: (id: string, faceId: string, points: Record<string, readonly number[]>) =>
-    json<FaceInfo>(post(`/api/photos/${encodeURIComponent(id)}/apply`, { face: faceId, points })),
+  firstPhotos: () => json<PhotosInfo>(ask("/api/photos/first")),
+  addPhoto: (file: Blob) => json<{ id: string }>(post("/api/photos", file)),
+  person: (photos: readonly string[]) => json<Opened>(post("/api/photos/person", { photos })),
+  photoUrl: (id: string) => photo(id),
+  texture: async (photos: readonly string[], way: TextureWay, points: Points) =>
+    (await post("/api/photos/texture", { photos, way, points })).blob(),
+  applyTexture: (faceId: string, photos: readonly string[], way: TextureWay, points: Points) =>
+    json<FaceInfo>(post("/api/photos/apply", { face: faceId, photos, way, points })),
+  photoMesh: (id: string, points: Points) =>
+    json<{ mesh: PhotoInfo["mesh"] }>(post(`${photo(id)}/mesh`, { points })),
+  pointsFile: async (id: string, points: Points) =>
+    (await post(`${photo(id)}/points`, { points })).blob(),
 };

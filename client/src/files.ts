@@ -3,7 +3,7 @@
 import { api } from "./api";
 import { h } from "./dom";
 import type { Jobs } from "./jobs";
-import type { ClipInfo, PhotoInfo } from "./schema";
+import type { ClipInfo, JobInfo, PhotoInfo } from "./schema";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
@@ -13,9 +13,9 @@ export class Files {
   constructor(
     private studio: Studio,
     private jobs: Jobs,
-    stage: HTMLElement,
+    private stage: HTMLElement,
     private onClip: (clip: ClipInfo) => void,
-    private onPhoto: (photo: PhotoInfo) => void,
+    private onPhotos: (photos: readonly PhotoInfo[]) => void,
   ) {
     stage.append(this.#progress);
     const over = (event: DragEvent) => {
@@ -29,39 +29,65 @@ export class Files {
     document.addEventListener("drop", (event) => {
       event.preventDefault();
       stage.classList.remove("dropping");
-      for (const file of event.dataTransfer?.files ?? []) void this.take(file);
+      void this.takeAll([...(event.dataTransfer?.files ?? [])]);
     });
   }
 
   choose(): void {
-    const input = h("input", { type: "file", accept: ".pdeface,.jpg,.jpeg,.png,.ply,.obj,.stl,.glb,.csv,.json", id: "file" });
+    const input = h("input", { type: "file", multiple: true, accept: ".pdeface,.jpg,.jpeg,.png,.ply,.obj,.stl,.glb,.csv,.json", id: "file" });
     input.addEventListener("change", () => {
-      for (const file of input.files ?? []) void this.take(file);
+      void this.takeAll([...(input.files ?? [])]);
     });
     input.click();
+  }
+
+  // Several photos at once are of one person.
+  async takeAll(files: readonly File[]): Promise<void> {
+    const photos = files.filter(({ type }) => type.startsWith("image/"));
+    if (photos.length > 1) void this.takePhotos(photos);
+    for (const file of files) if (photos.length < 2 || !photos.includes(file)) await this.take(file);
+  }
+
+  // The face of the person in these photos and in those that the server has already.
+  async takePhotos(files: readonly File[], beside: readonly string[] = []): Promise<void> {
+    try {
+      const added: string[] = [];
+      for (const file of files) added.push((await api.addPhoto(file)).id);
+      const { job } = await api.person([...beside, ...added]);
+      const name = beside.length ? this.studio.doc.name : stem(files[0]!);
+      this.#watch(job!, name, `Face of ${beside.length + added.length} photos`);
+    } catch (error) {
+      toast(error);
+    }
   }
 
   async take(file: File): Promise<void> {
     try {
       const { face, clip, job } = await api.open(file);
-      const name = file.name.replace(/\.[^.]*$/, "");
+      const name = stem(file);
       if (face) await this.studio.adopt({ ...face, name: face.name || name }, `Open ${file.name}`);
       if (clip) this.onClip({ ...clip, name });
-      if (job) {
-        this.jobs.watch(job, ({ state, message, face: made, photo }) => {
-          this.#progress.hidden = state !== "running";
-          this.#progress.replaceChildren(h("span", { class: "spinner" }), `${name}: ${message}…`);
-          if (state === "failed") toast(new Error(message));
-          if (state !== "done" || !made) return;
-          void this.studio.adopt({ ...made, name }, `Open ${file.name}`);
-          if (photo) {
-            for (const note of photo.notes) toast(note);
-            this.onPhoto(photo);
-          }
-        });
-      }
+      if (job) this.#watch(job, name, `Open ${file.name}`);
     } catch (error) {
       toast(error);
     }
   }
+
+  #watch(job: JobInfo, name: string, label: string): void {
+    this.jobs.watch(job, ({ state, message, face, photos }) => {
+      // Over a dialogue that is open, if one is.
+      (document.querySelector<HTMLElement>("dialog[open]") ?? this.stage).append(this.#progress);
+      this.#progress.hidden = state !== "running";
+      this.#progress.replaceChildren(h("span", { class: "spinner" }), `${name}: ${message}…`);
+      if (state === "failed") toast(new Error(message));
+      if (state !== "done" || !face) return;
+      void this.studio.adopt({ ...face, name }, label);
+      for (const note of photos.flatMap(({ notes }) => notes)) toast(note);
+      if (photos.length) this.onPhotos(photos);
+    });
+  }
+}
+
+function stem(file: File): string {
+  return file.name.replace(/\.[^.]*$/, "");
 }

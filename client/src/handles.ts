@@ -95,8 +95,8 @@ export class Handles {
     const { viewer, head } = this.studio;
     const at = this.#world({ curve, point });
     const frame = viewer.canvas.getBoundingClientRect();
-    const depth = at.distanceTo(viewer.camera.position);
-    at.project(viewer.camera);
+    const depth = at.distanceTo(viewer.eye.position);
+    at.project(viewer.eye);
     return {
       x: frame.left + ((at.x + 1) / 2) * frame.width,
       y: frame.top + ((1 - at.y) / 2) * frame.height,
@@ -216,7 +216,7 @@ export class Handles {
     const { viewer, doc, size, symmetric } = this.studio;
     viewer.canvas.setPointerCapture(event.pointerId);
     const start = this.#world(place);
-    const towards = viewer.camera.getWorldDirection(new THREE.Vector3());
+    const towards = viewer.eye.getWorldDirection(new THREE.Vector3());
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(towards, start);
     const drag: Drag = { place, start, plane, handles: this.#shares(place), response: null, by: new THREE.Vector3() };
     this.#drag = drag;
@@ -242,7 +242,7 @@ export class Handles {
       1 - (2 * (event.clientY - frame.top)) / frame.height,
     );
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(at, viewer.camera);
+    ray.setFromCamera(at, viewer.eye);
     const hit = ray.ray.intersectPlane(drag.plane, new THREE.Vector3());
     if (!hit) return;
     drag.by = hit.sub(drag.start);

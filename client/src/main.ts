@@ -14,8 +14,9 @@ import { Jobs } from "./jobs";
 import { listen, type Shortcut } from "./keys";
 import { Motion } from "./motion";
 import { Panel } from "./panel";
-import { photoDialog } from "./photo";
-import type { PhotoInfo } from "./schema";
+import { Overlay } from "./overlay";
+import { PhotoDesk } from "./photo";
+import type { ClipInfo, PhotoInfo } from "./schema";
 import { keepSession, lastSession, ownSession, type Session } from "./storage";
 import { Studio } from "./studio";
 import { setTheme, theme } from "./theme";
@@ -48,17 +49,38 @@ async function start(): Promise<void> {
   const jobs = new Jobs(() => void studio.refine());
   const motion = new Motion(studio, stage);
   const handles = new Handles(studio, stage);
-  let photo: PhotoInfo | null = null;
-  const showPhoto = async () => {
+  const overlay = new Overlay(studio, stage);
+  let photos: readonly PhotoInfo[] | null = null;
+  let desk: PhotoDesk | null = null;
+  const show = (clip?: ClipInfo) => {
+    overlay.leave();
+    void motion.show(clip);
+  };
+  const files = new Files(studio, jobs, stage, show, (found) => {
+    photos = found;
+    overlay.leave();
+    if (desk?.isOpen) desk.update(found);
+  });
+  // Of these photos the face was made; else there is the bundled portrait to try.
+  const withPhotos = async (act: (all: readonly PhotoInfo[]) => void) => {
     try {
-      photo ??= await api.bundledPhoto();
-      photoDialog(studio, photo);
+      photos ??= (await api.firstPhotos()).photos;
+      act(photos);
     } catch (error) {
       toast(error);
     }
   };
-  const files = new Files(studio, jobs, stage, (clip) => void motion.show(clip), (found) => {
-    photo = found;
+  const compare = (photo?: PhotoInfo) => withPhotos((all) => {
+    if (overlay.open) overlay.leave();
+    else {
+      if (motion.open) motion.close();
+      overlay.show(all, photo ?? all[0]!);
+    }
+  });
+  const showPhoto = () => withPhotos((all) => {
+    desk = new PhotoDesk(studio, all, {
+      add: (chosen, beside) => files.takePhotos(chosen, beside), overlay: (photo) => void compare(photo),
+    });
   });
   const save = async () => {
     try {
@@ -83,13 +105,14 @@ async function start(): Promise<void> {
     { keys: "m", what: "Next way of showing", act: () => tools.nextMode() },
     { keys: "b", what: "Before and after", act: () => studio.compare(!studio.comparing) },
     { keys: "c", what: "Boundary curves on top", act: () => tools.curves() },
+    { keys: "o", what: "The photo behind the face", act: () => void compare() },
     { keys: "y", what: "Symmetry", act: () => panel.toggleSymmetry() },
     { keys: "r", what: "Random face", act: () => panel.randomFace() },
     { keys: "/", what: "Search controls", act: () => panel.focusSearch() },
     { keys: "Ctrl+z", what: "Undo", act: () => timeline.undo() },
     { keys: "Ctrl+Shift+z Ctrl+y", what: "Redo", act: () => timeline.redo() },
     { keys: "d", what: "Drag the curves", act: () => handles.toggle() },
-    { keys: " ", what: "Play or pause motion", act: () => motion.toggle() },
+    { keys: " ", what: "Play or pause motion", act: () => (motion.open ? motion.toggle() : show()) },
     { keys: "Ctrl+o", what: "Open", act: () => files.choose() },
     { keys: "Ctrl+s", what: "Save", act: () => void save() },
     { keys: "Ctrl+e", what: "Export", act: () => exportDialog(studio) },
@@ -98,7 +121,7 @@ async function start(): Promise<void> {
   ];
   new Bar(studio, document.getElementById("bar")!, {
     open: () => files.choose(), save: () => void save(), exports: () => exportDialog(studio),
-    photo: () => void showPhoto(), motion: () => void motion.show(), sculpt: () => handles.toggle(),
+    photo: () => void showPhoto(), motion: () => show(), sculpt: () => handles.toggle(),
     theme: switchTheme, help: () => help(shortcuts),
   });
   listen(shortcuts);
@@ -107,7 +130,7 @@ async function start(): Promise<void> {
   studio.addEventListener("shown", dress);
   if (own) toast("Your work was recovered.");
   else if (left && worthIt(left)) offer(left, timeline);
-  Object.assign(window, { studio, viewer, motion, handles, files, blend, api });
+  Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, api });
   await studio.load();
   welcome(() => help(shortcuts));
   await studio.keepCurrent();

@@ -4,6 +4,7 @@
 import { api } from "./api";
 import { dialog, download, fileName } from "./dialogs";
 import { clamp, h, settled } from "./dom";
+import type { TextureWay } from "./api";
 import type { PhotoInfo, PhotoPoint } from "./schema";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
@@ -12,6 +13,7 @@ const SVG = "http://www.w3.org/2000/svg";
 const LOUPE = 132;
 const ZOOM = 4;
 const GRID = 5;
+const NODES = 7;
 
 function svg(tag: string, attributes: Record<string, string | number>): SVGElement {
   const element = document.createElementNS(SVG, tag);
@@ -19,46 +21,142 @@ function svg(tag: string, attributes: Record<string, string | number>): SVGEleme
   return element;
 }
 
-export function photoDialog(studio: Studio, photo: PhotoInfo): void {
-  new PhotoDesk(studio, photo);
+export interface PhotoActions {
+  readonly add: (files: readonly File[], beside: readonly string[]) => Promise<void>;
+  readonly overlay: (photo: PhotoInfo) => void;
 }
 
-class PhotoDesk {
-  #points: PhotoPoint[];
+const WAYS: readonly { way: TextureWay; label: string; what: string }[] = [
+  { way: "project", label: "Projected", what: "Read through the fitted face, all photos together: teeth stay off the lips, and what a photo does not show comes from the other side." },
+  { way: "warp", label: "Warped", what: "The paper's five steps: the photo's 7 x 7 mesh, warped onto the uv mesh. It is pinned to (u, v): any shape and any expression wears it." },
+];
+
+// The photos of one person, their points and what becomes of them.
+export class PhotoDesk {
+  #photos: readonly PhotoInfo[];
+  #photo!: PhotoInfo;
+  #way: TextureWay = "project";
+  #points: PhotoPoint[] = [];
   #marks = new Map<string, SVGElement>();
-  #lines = svg("path", { class: "links" });
-  #overlay: SVGElement;
-  #image: HTMLImageElement;
-  #texture = h("img", { alt: "Texture made of the points", id: "texture" });
+  #links = svg("path", { class: "links" });
+  #mesh = svg("path", { class: "mesh", id: "mesh" });
+  #overlay = svg("svg", {});
+  #image = h("img", { alt: "The photo", draggable: "false" });
+  #stage: HTMLElement;
+  #strip = h("div", { class: "strip", role: "group", "aria-label": "Photos of this person" });
+  #ways = new Map<TextureWay, HTMLButtonElement>();
+  #what = h("p", {});
+  #texture = h("img", { alt: "Texture of the photo", id: "texture" });
   #loupe = h("canvas", { class: "loupe", width: LOUPE, height: LOUPE, hidden: true });
-  #name = h("p", { class: "point" }, "Drag a point, or choose one and use the arrow keys.");
+  #name = h("p", { class: "point" });
   #warp = settled(() => void this.#show(), 60);
   #busy = false;
+  #box: HTMLDialogElement;
 
   constructor(
     private studio: Studio,
-    private photo: PhotoInfo,
+    photos: readonly PhotoInfo[],
+    private actions: PhotoActions,
   ) {
+    this.#photos = photos;
+    this.#stage = h("div", { class: "photo" }, this.#image, this.#overlay, this.#loupe);
+    const ways = h("div", { class: "tabs two", role: "group", "aria-label": "How the texture is made" });
+    for (const { way, label, what } of WAYS) {
+      const button = h("button", { title: what, onclick: () => this.#choose(way) }, label);
+      this.#ways.set(way, button);
+      ways.append(button);
+    }
+    const button = (label: string, act: () => void, more = {}) => h("button", { onclick: act, ...more }, label);
+    this.#box = dialog("Photo and its points", "desk",
+      h("div", { class: "sides" },
+        h("div", { class: "seen" }, this.#stage, this.#strip),
+        h("div", { class: "made" }, ways, this.#texture, this.#what, this.#name)),
+      h("footer", {},
+        button("Save points", () => void this.#keep()),
+        button("Points as found", () => this.#reset()),
+        h("span", { class: "space" }),
+        button("Compare on the stage", () => this.#compare(), { id: "compare" }),
+        button("Use this texture", () => void this.#apply(), { class: "primary", id: "apply" })));
+    this.#choose("project");
+    this.#turnTo(photos[0]!);
+  }
+
+  get isOpen(): boolean {
+    return this.#box.open;
+  }
+
+  // The person has other photos now.
+  update(photos: readonly PhotoInfo[]): void {
+    const at = photos.find(({ id }) => id === this.#photo.id);
+    this.#photos = photos;
+    this.#turnTo(at ?? photos[0]!);
+  }
+
+  #turnTo(photo: PhotoInfo): void {
+    this.#photo = photo;
     this.#points = [...photo.points];
     const { width, height } = photo;
-    this.#image = h("img", { src: api.photoUrl(photo.id), alt: "The photo", draggable: "false" });
-    this.#overlay = svg("svg", { viewBox: `0 0 ${width} ${height}` });
-    this.#overlay.append(this.#lines);
-    const radius = Math.max(width, height) / 110;
-    for (const { name } of this.#points) this.#addMark(name, radius);
-    const stage = h("div", { class: "photo" }, this.#image, this.#overlay, this.#loupe);
-    stage.style.setProperty("--aspect", String(width / height));
-    const apply = h("button", { class: "primary", id: "apply" }, "Use this texture");
-    const reset = h("button", { onclick: () => this.#reset() }, "Points as found");
-    const keep = h("button", { onclick: () => void this.#keep() }, "Save points");
-    const box = dialog("Photo and its points", "desk",
-      h("div", { class: "sides" }, stage,
-        h("div", { class: "made" }, this.#texture, this.#name,
-          h("p", {}, "The texture by the paper's five steps. It is pinned to (u, v): any shape and any expression wears it."))),
-      h("footer", {}, keep, h("span", { class: "space" }), reset, apply));
-    apply.addEventListener("click", () => void this.#apply(box));
+    this.#image.src = api.photoUrl(photo.id);
+    this.#overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.#overlay.replaceChildren(this.#mesh, this.#links);
+    this.#marks.clear();
+    for (const { name } of this.#points) this.#addMark(name, Math.max(width, height) / 110);
+    this.#stage.style.setProperty("--aspect", String(width / height));
+    this.#fillStrip();
+    this.#drawMesh(photo.mesh);
     this.#place();
+    this.#say();
     void this.#show();
+  }
+
+  #fillStrip(): void {
+    const thumb = (photo: PhotoInfo, n: number) =>
+      h("button", {
+        class: "thumb", "aria-label": `Photo ${n + 1}`, "aria-pressed": String(photo === this.#photo),
+        onclick: () => this.#turnTo(photo),
+      }, h("img", { src: api.photoUrl(photo.id), alt: "" }));
+    const add = h("button", { class: "quiet", id: "add-photo", title: "More photos of the same person: from the sides, say", onclick: () => this.#ask() }, "Add photos…");
+    const less = h("button", {
+      class: "quiet", title: "Make the face without this photo", disabled: this.#photos.length < 2,
+      onclick: () => void this.#without(),
+    }, "Leave out");
+    this.#strip.replaceChildren(...this.#photos.map(thumb), add, ...(this.#photos.length > 1 ? [less] : []));
+  }
+
+  #ask(): void {
+    const input = h("input", { type: "file", accept: "image/jpeg,image/png", multiple: true });
+    input.addEventListener("change", () => void this.actions.add([...(input.files ?? [])], this.#ids));
+    input.click();
+  }
+
+  #without(): Promise<void> {
+    return this.actions.add([], this.#ids.filter((id) => id !== this.#photo.id));
+  }
+
+  #compare(): void {
+    this.#box.close();
+    this.actions.overlay(this.#photo);
+  }
+
+  // The photo that is looked at first: it is the one that is warped.
+  get #ids(): string[] {
+    const { id } = this.#photo;
+    return [id, ...this.#photos.map((photo) => photo.id).filter((other) => other !== id)];
+  }
+
+  #choose(way: TextureWay): void {
+    this.#way = way;
+    for (const [name, button] of this.#ways) button.setAttribute("aria-pressed", String(name === way));
+    this.#what.textContent = WAYS.find((each) => each.way === way)!.what;
+    this.#stage.classList.toggle("warped", way === "warp");
+    if (this.#photo) void this.#show();
+  }
+
+  #say(): void {
+    const { notes } = this.#photo;
+    this.#name.textContent = this.#points.length
+      ? "Drag a point, or choose one and use the arrow keys: the texture is warped by them."
+      : (notes.at(-1) ?? "");
   }
 
   #addMark(name: string, radius: number): void {
@@ -77,8 +175,8 @@ class PhotoDesk {
     const move = (at: PointerEvent) => {
       const frame = this.#overlay.getBoundingClientRect();
       this.#move(name,
-        ((at.clientX - frame.left) / frame.width) * this.photo.width,
-        ((at.clientY - frame.top) / frame.height) * this.photo.height);
+        ((at.clientX - frame.left) / frame.width) * this.#photo.width,
+        ((at.clientY - frame.top) / frame.height) * this.#photo.height);
     };
     const end = () => {
       mark.removeEventListener("pointermove", move);
@@ -92,21 +190,22 @@ class PhotoDesk {
     const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
     if (!step) return;
     event.preventDefault();
-    const far = (event.shiftKey ? 10 : 1) * Math.max(0.25, this.photo.width / 1024);
+    const far = (event.shiftKey ? 10 : 1) * Math.max(0.25, this.#photo.width / 1024);
     const { x, y } = this.#points.find((point) => point.name === name)!;
     this.#move(name, x + far * step[0]!, y + far * step[1]!);
   }
 
   #move(name: string, x: number, y: number): void {
-    const at = { name, x: clamp(x, 0, this.photo.width), y: clamp(y, 0, this.photo.height) };
+    const at = { name, x: clamp(x, 0, this.#photo.width), y: clamp(y, 0, this.#photo.height) };
     this.#points = this.#points.map((point) => (point.name === name ? at : point));
     this.#place();
     this.#magnify(at);
+    if (this.#way !== "warp") this.#choose("warp");
     this.#warp();
   }
 
   #reset(): void {
-    this.#points = [...this.photo.points];
+    this.#points = [...this.#photo.points];
     this.#place();
     this.#warp();
   }
@@ -123,13 +222,24 @@ class PhotoDesk {
       if ((n + 1) % GRID) path += `M${at(n)}L${at(n + 1)}`;
       if (n + GRID < GRID * GRID) path += `M${at(n)}L${at(n + GRID)}`;
     }
-    this.#lines.setAttribute("d", path);
+    this.#links.setAttribute("d", path);
+  }
+
+  // The 7 x 7 nodes of Fig. 6, row after row.
+  #drawMesh(nodes: PhotoInfo["mesh"]): void {
+    const at = (n: number) => `${nodes[n]![0]} ${nodes[n]![1]}`;
+    let path = "";
+    for (let n = 0; n < nodes.length; n++) {
+      if ((n + 1) % NODES) path += `M${at(n)}L${at(n + 1)}`;
+      if (n + NODES < nodes.length) path += `M${at(n)}L${at(n + NODES)}`;
+    }
+    this.#mesh.setAttribute("d", path);
   }
 
   // What is under the finger, four times as large as on the screen.
   #magnify({ x, y }: PhotoPoint): void {
     const frame = this.#overlay.getBoundingClientRect();
-    const scale = frame.width / this.photo.width;
+    const scale = frame.width / this.#photo.width;
     const half = LOUPE / (2 * ZOOM * scale);
     const pen = this.#loupe.getContext("2d")!;
     pen.fillStyle = "#000";
@@ -158,11 +268,15 @@ class PhotoDesk {
     }
     this.#busy = true;
     try {
-      const url = URL.createObjectURL(await api.warp(this.photo.id, this.#chosen));
+      const warped = this.#way === "warp";
+      const blob = await api.texture(this.#ids, this.#way, this.#chosen);
+      if (warped) this.#drawMesh((await api.photoMesh(this.#photo.id, this.#chosen)).mesh);
       const old = this.#texture.src;
-      this.#texture.src = url;
+      this.#texture.src = URL.createObjectURL(blob);
+      this.#texture.dataset.way = warped ? "warp" : "project";
       if (old.startsWith("blob:")) URL.revokeObjectURL(old);
       this.#texture.classList.remove("wrong");
+      if (warped !== (this.#way === "warp")) this.#warp();
     } catch (error) {
       this.#texture.classList.add("wrong");
       this.#name.textContent = (error as Error).message;
@@ -173,18 +287,18 @@ class PhotoDesk {
 
   async #keep(): Promise<void> {
     try {
-      const file = await api.pointsFile(this.photo.id, this.#chosen);
+      const file = await api.pointsFile(this.#photo.id, this.#chosen);
       download(file, fileName(`${this.studio.doc.name}-points`, ".json"));
     } catch (error) {
       toast(error);
     }
   }
 
-  async #apply(box: HTMLDialogElement): Promise<void> {
+  async #apply(): Promise<void> {
     try {
       const { doc } = this.studio;
-      const info = await api.applyPhoto(this.photo.id, doc.face, this.#chosen);
-      box.close();
+      const info = await api.applyTexture(doc.face, this.#ids, this.#way, this.#chosen);
+      this.#box.close();
       await this.studio.adopt({ ...info, name: doc.name }, "Texture of the photo", doc.weights);
     } catch (error) {
       toast(error);

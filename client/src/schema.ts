@@ -90,13 +90,29 @@ export interface PhotoPoint {
   readonly y: number;
 }
 
-/** A photo that the server knows by ``id``, and the points in it. */
+/** The camera of a photo, as :class:`pdeface.photo.camera.PhotoCamera` has it. ``rotation`` has the rows of R one after the other. */
+export interface CameraInfo {
+  readonly rotation: readonly (number)[];
+  readonly scale: number;
+  readonly centre: readonly (number)[];
+  readonly distance: number;
+}
+
+/** A photo that the server knows by ``id``: the points in it and the 7 x 7 mesh of Fig. 6. ``camera`` took it, and ``expression`` is what the face does in it. */
 export interface PhotoInfo {
   readonly id: string;
   readonly width: number;
   readonly height: number;
   readonly points: readonly (PhotoPoint)[];
+  readonly mesh: readonly (readonly (number)[])[];
+  readonly camera: CameraInfo;
+  readonly expression: Readonly<Record<string, number>>;
   readonly notes: readonly (string)[];
+}
+
+/** Photos of one person, the one seen from the front first. */
+export interface PhotosInfo {
+  readonly photos: readonly (PhotoInfo)[];
 }
 
 /** How far a job has come: ``state`` is ``"running"``, ``"done"`` or ``"failed"``. */
@@ -105,7 +121,7 @@ export interface JobInfo {
   readonly state: string;
   readonly message: string;
   readonly face: FaceInfo | null;
-  readonly photo: PhotoInfo | null;
+  readonly photos: readonly (PhotoInfo)[];
 }
 
 /** What a file turned out to be: one of these. */

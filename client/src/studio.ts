@@ -22,6 +22,8 @@ export class Studio extends EventTarget {
   comparing = false;
   // A handle is held: what the server says of the face without it would be a step back.
   holding = false;
+  // What the face does besides what the document says: what it did in a photo that lies behind it.
+  #worn: Weights = {};
   #shown = "";
   #infos = new Map<string, FaceInfo>();
   #loading = 0;
@@ -115,7 +117,8 @@ export class Studio extends EventTarget {
       return;
     }
     const { head, size } = this;
-    const { face, weights } = this.timeline.doc;
+    const { face } = this.timeline.doc;
+    const weights = this.seen;
     if (!head || face !== this.#shown) return;
     this.#asking = true;
     try {
@@ -174,8 +177,18 @@ export class Studio extends EventTarget {
   // The face as the document says, drawn with the next frame.
   redraw(): boolean {
     if (this.timeline.doc.face !== this.#shown) return false;
-    if (!this.performing && !this.comparing) this.perform(this.timeline.doc.weights);
+    if (!this.performing && !this.comparing) this.perform(this.seen);
     return true;
+  }
+
+  // The weights at which the face is shown.
+  get seen(): Weights {
+    return { ...this.timeline.doc.weights, ...this.#worn };
+  }
+
+  wear(expression: Weights): void {
+    this.#worn = expression;
+    if (this.redraw()) this.#refine();
   }
 
   // Before and after: the weights with which this face was opened, until it is told otherwise.

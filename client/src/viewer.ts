@@ -28,6 +28,14 @@ function isSoftware(): boolean {
   return /swiftshader|llvmpipe|software/i.test(name);
 }
 
+// A camera that stands where a photo was taken from, in place of the one that orbits.
+export interface Stand {
+  readonly camera: THREE.PerspectiveCamera;
+  resize(width: number, height: number): void;
+  fit(): void;
+  leave(): void;
+}
+
 export class Viewer {
   readonly canvas: HTMLCanvasElement;
   readonly renderer: THREE.WebGLRenderer;
@@ -46,6 +54,7 @@ export class Viewer {
   #centre = new THREE.Vector3(0, 0, 0.05);
   #radius = 0.14;
   #animation = 0;
+  #stand: Stand | null = null;
 
   // onLost: the graphics card has given up, so that nothing would be seen.
   constructor(
@@ -106,20 +115,37 @@ export class Viewer {
     cancelAnimationFrame(this.#asked);
     this.#asked = 0;
     this.frames++;
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, this.eye);
+  }
+
+  // The camera through which the face is seen now.
+  get eye(): THREE.PerspectiveCamera | THREE.OrthographicCamera {
+    return this.#stand?.camera ?? this.camera;
+  }
+
+  set stand(stand: Stand | null) {
+    this.#stand = stand;
+    this.controls.enabled = stand === null;
+    this.#resize();
   }
 
   look(view: View, gently = true): void {
+    this.#stand?.leave();
     const [azimuth, height] = VIEWS[view];
     this.#turnTo(azimuth, height, this.#distance(), this.#centre.clone(), gently);
   }
 
   fit(): void {
+    if (this.#stand) {
+      this.#stand.fit();
+      return;
+    }
     const at = this.#spherical();
     this.#turnTo(at.theta, Math.PI / 2 - at.phi, this.#distance(), this.#centre.clone(), true);
   }
 
   turn(azimuth: number, height: number): void {
+    this.#stand?.leave();
     const at = this.#spherical();
     const up = THREE.MathUtils.clamp(Math.PI / 2 - at.phi + height * TURN, -1.4, 1.4);
     this.#place(at.theta + azimuth * TURN, up, at.radius, this.controls.target);
@@ -136,6 +162,7 @@ export class Viewer {
   }
 
   set orthographic(wanted: boolean) {
+    this.#stand?.leave();
     const next = wanted ? this.#orthographic : this.#perspective;
     next.position.copy(this.camera.position);
     this.camera = next;
@@ -222,6 +249,7 @@ export class Viewer {
   #setSize(width: number, height: number): void {
     this.renderer.setSize(Math.max(1, width), Math.max(1, height), false);
     this.display?.resize(width, height);
+    this.#stand?.resize(width, height);
     this.#perspective.aspect = width / Math.max(1, height);
     this.#perspective.updateProjectionMatrix();
     this.#frame();

@@ -98,3 +98,24 @@ def visitor(client: TestClient) -> Visitor:
 def unpack() -> Callable[[bytes], Arrays]:
     """Reads a packet."""
     return unpacked
+
+
+@pytest.fixture
+def sent(client: TestClient) -> Callable[[bytes], Any]:
+    """The server's answer to a file."""
+    return lambda data: client.post("/api/open", content=data)
+
+
+@pytest.fixture
+def finished(client: TestClient) -> Callable[[str, str], dict[str, Any]]:
+    """What the websocket tells of a job in the end."""
+
+    def waited(job: str, state: str) -> dict[str, Any]:
+        with client.websocket_connect("ws://127.0.0.1:8640/api/jobs") as socket:
+            while True:
+                told = socket.receive_json()
+                if told["id"] == job and told["state"] != "running":
+                    assert told["state"] == state, told["message"]
+                    return told
+
+    return waited

@@ -24,6 +24,7 @@ export async function flows(page, { folder, gone, expecting }) {
   await timed("motion", () => motion(page));
   await timed("sculpt", () => sculpt(page));
   await timed("photo", () => photo(page));
+  await timed("behind", () => behind(page));
   await timed("barriers", () => barriers(page));
   await timed("shown", () => shown(page, folder));
   await timed("files", () => files(page, folder, expecting));
@@ -252,18 +253,33 @@ async function sculpt(page) {
 
 async function photo(page) {
   await page.evaluate(() => (window.before = pixels()));
-  await page.getByRole("button", { name: "Photo" }).click();
+  await page.getByRole("button", { name: "Photo", exact: true }).click();
   const texture = page.locator("#texture");
-  await page.waitForFunction(() => document.querySelector("#texture")?.naturalWidth > 0, null, { polling: 30 });
-  const first = await texture.getAttribute("src");
-  const found = { points: await page.locator("circle[data-point]").count() };
+  const made = (way) => page.waitForFunction((wanted) => {
+    const image = document.querySelector("#texture");
+    return image?.naturalWidth > 0 && image.dataset.way === wanted;
+  }, way, { polling: 30 });
+  await made("project");
+  const found = { points: await page.locator("circle[data-point]").count(), projected: await colours(page) };
+  await page.getByRole("button", { name: "Warped" }).click();
+  await made("warp");
+  found.warped = await colours(page);
+  const mesh = page.locator("#mesh");
+  found.mesh = (await mesh.getAttribute("d")).match(/M/g).length;
+  const [first, drawn] = [await texture.getAttribute("src"), await mesh.getAttribute("d")];
+  await page.getByRole("button", { name: "Projected" }).click();
+  await made("project");
   const nose = page.locator("circle[data-point=nose_tip]");
   const at = Number(await nose.getAttribute("cx"));
   await nose.focus();
   await page.keyboard.press("Shift+ArrowRight");
   await page.keyboard.press("ArrowRight");
   found.moved = Number(await nose.getAttribute("cx")) - at;
-  await page.waitForFunction((old) => document.querySelector("#texture").src !== old, first, { polling: 30 });
+  // A point that moves is the warp's.
+  await made("warp");
+  await page.waitForFunction(([old, path]) =>
+    document.querySelector("#texture").src !== old && document.querySelector("#mesh").getAttribute("d") !== path,
+  [first, drawn], { polling: 30 });
   const box = await nose.boundingBox();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.mouse.down();
@@ -276,6 +292,53 @@ async function photo(page) {
   await settle(page);
   await page.waitForTimeout(300);
   found.seen = await page.evaluate(() => changed(before, pixels()));
+  return found;
+}
+
+// The mean colour of the texture that the dialogue shows.
+const colours = (page) => page.evaluate(() => {
+  const pen = new OffscreenCanvas(64, 64).getContext("2d");
+  pen.drawImage(document.querySelector("#texture"), 0, 0, 64, 64);
+  return [...pen.getImageData(0, 0, 64, 64).data];
+});
+
+// The photo behind the face: through its camera, fading, and gone without a trace.
+async function behind(page) {
+  const photo = await page.evaluate(async () => (await api.firstPhotos()).photos[0]);
+  await page.evaluate(() => (window.before = pixels()));
+  await page.keyboard.press("o");
+  await page.waitForFunction(() => overlay.open && document.querySelector(".behind").naturalWidth > 0, null, { polling: 30 });
+  const at = () => page.evaluate(() => {
+    const { head } = studio;
+    const [left, top] = overlay.onStage(0, 0);
+    const zoom = overlay.onStage(1, 0)[0] - left;
+    const frame = viewer.canvas.getBoundingClientRect();
+    const place = head.skin.mesh.position.clone();
+    return [300, 574, 900].map((n) => {
+      place.fromArray(head.morph.positions, 3 * n).project(viewer.eye);
+      const x = ((place.x + 1) / 2) * frame.width, y = ((1 - place.y) / 2) * frame.height;
+      return [...head.morph.positions.subarray(3 * n, 3 * n + 3), (x - left) / zoom, (y - top) / zoom];
+    });
+  });
+  const found = { photo, before: await at() };
+  await page.mouse.move(420, 300);
+  await page.mouse.wheel(0, -300);
+  await page.mouse.down();
+  await page.mouse.move(450, 330, { steps: 2 });
+  await page.mouse.up();
+  found.after = await at();
+  found.turned = await page.evaluate(() => changed(before, pixels()));
+  await page.locator("#opacity").fill("0.25");
+  found.opacity = await page.evaluate(() => getComputedStyle(viewer.canvas).opacity);
+  await page.evaluate(() => (window.smiling = pixels()));
+  await page.getByRole("button", { name: "Its expression" }).click();
+  found.calm = await page.evaluate(() => changed(smiling, pixels()));
+  await page.keyboard.press("o");
+  await settle(page);
+  await page.waitForTimeout(300);
+  found.back = await page.evaluate(() => changed(before, pixels()));
+  found.hidden = await page.locator(".behind").isHidden();
+  found.weights = await page.evaluate(() => studio.doc.weights);
   return found;
 }
 
@@ -353,7 +416,7 @@ async function barriers(page) {
   await look("export");
   await page.keyboard.press("Escape");
   await page.keyboard.press("l");
-  await page.getByRole("button", { name: "Photo" }).click();
+  await page.getByRole("button", { name: "Photo", exact: true }).click();
   await page.locator("circle[data-point=nose_tip]").waitFor();
   await look("photo");
   await page.keyboard.press("Escape");

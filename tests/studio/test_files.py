@@ -11,17 +11,9 @@ import numpy as np
 import pytest
 
 import pdeface
-from pdeface.images import encode_png
 from pdeface.motion import clip, write
 from pdeface.studio import requests
 from pdeface.studio.scans import scan_suffix
-from pdeface.texture import portrait
-
-
-@pytest.fixture
-def sent(client):
-    """The server's answer to a file."""
-    return lambda data: client.post("/api/open", content=data)
 
 
 def saved(visitor, weights, folder: Path) -> pdeface.Face:
@@ -116,17 +108,17 @@ def test_what_is_no_scan_is_not_taken_for_one(data: bytes) -> None:
     assert scan_suffix(data) == ""
 
 
-def test_a_scan_of_nothing_fails_with_a_line(client, sent) -> None:
+def test_a_scan_of_nothing_fails_with_a_line(finished, sent) -> None:
     job = sent(b"v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n").json()["job"]
-    assert "vertices" in finished(client, job["id"], "failed")["message"]
+    assert "vertices" in finished(job["id"], "failed")["message"]
 
 
-def test_a_scan_becomes_a_face(client, sent, shared_data, monkeypatch, tmp_path) -> None:
+def test_a_scan_becomes_a_face(client, finished, sent, shared_data, monkeypatch, tmp_path) -> None:
     monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
     path = tmp_path / "head.ply"
     pdeface.export(pdeface.neutral().set(noseLength=0.8), path, mesh=(109, 161))
     job = sent(path.read_bytes()).json()["job"]
-    done = finished(client, job["id"], "done")
+    done = finished(job["id"], "done")
     assert done["face"]["curves"] >= 28
     answer = client.post(
         f"/api/faces/{done['face']['id']}/evaluate",
@@ -155,46 +147,3 @@ def test_a_built_in_clip_is_told(client) -> None:
     info = client.get("/api/clips/talk").json()
     assert info["times"][-1] > 3
     assert client.get("/api/clips/sing").status_code == 422
-
-
-def test_a_photo_without_a_face_fails_with_a_line(client, sent, shared_data, monkeypatch) -> None:
-    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
-    job = sent(encode_png(np.full((64, 64, 3), 128, np.uint8))).json()["job"]
-    assert "no face was found" in finished(client, job["id"], "failed")["message"]
-
-
-def test_a_photo_becomes_a_face(client, sent, shared_data, monkeypatch) -> None:
-    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
-    job = sent(encode_png(portrait()[0])).json()["job"]
-    done = finished(client, job["id"], "done")
-    assert done["face"]["texture"]
-    assert done["face"]["weights"]
-    assert len(done["photo"]["points"]) >= 25
-    points = {point["name"]: [point["x"], point["y"]] for point in done["photo"]["points"]}
-    path = f"/api/photos/{done['photo']['id']}"
-    assert client.get(path).headers["content-type"].startswith("image/")
-    assert client.post(f"{path}/warp", json={"points": points}).content.startswith(b"\xff\xd8")
-    kept = json.loads(client.post(f"{path}/points", json={"points": points}).content)
-    assert kept["format"] == "pdeface-points"
-    assert kept["points"]["nose_tip"] == pytest.approx(points["nose_tip"], abs=0.01)
-    wrong = {name: [5.0, 5.0] for name in points}
-    assert client.post(f"{path}/warp", json={"points": wrong}).status_code == 422
-    face = {"face": done["face"]["id"], "points": points}
-    warped = client.post(f"{path}/apply", json=face).json()
-    assert warped["texture"] not in ("", done["face"]["texture"])
-
-
-def test_a_picture_of_too_many_pixels_is_refused(client, sent, monkeypatch) -> None:
-    monkeypatch.setattr("pdeface.studio.photos.MOST_PIXELS", 100)
-    job = sent(encode_png(np.zeros((64, 64, 3), np.uint8))).json()["job"]
-    assert "make it smaller" in finished(client, job["id"], "failed")["message"]
-
-
-def finished(client, job: str, state: str) -> dict:
-    """What the websocket tells of a job in the end."""
-    with client.websocket_connect("ws://127.0.0.1:8640/api/jobs") as socket:
-        while True:
-            told = socket.receive_json()
-            if told["id"] == job and told["state"] != "running":
-                assert told["state"] == state, told["message"]
-                return told

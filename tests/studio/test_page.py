@@ -15,6 +15,7 @@ import pytest
 from PIL import Image
 
 import pdeface
+from pdeface.photo.camera import PhotoCamera
 from pdeface.studio import assets
 
 HERE = Path(__file__).parent
@@ -175,7 +176,28 @@ def test_points_of_a_photo_make_a_texture(report) -> None:
     assert photo["moved"] == pytest.approx(2.75)  # of 256 pixels: ten steps of a quarter, and one
     assert photo["loupe"]
     assert photo["dragged"] < photo["moved"]
+    assert photo["mesh"] == 2 * 7 * 6
+    ways = np.array(photo["projected"], int), np.array(photo["warped"], int)
+    assert 2 < np.abs(ways[0] - ways[1]).mean() < 60
     assert photo["seen"] > 5000
+
+
+def test_the_photo_lies_behind_the_face_where_its_camera_saw_it(report) -> None:
+    behind = report["behind"]
+    camera = behind["photo"]["camera"]
+    known = PhotoCamera(
+        np.reshape(camera["rotation"], (3, 3)),
+        camera["scale"],
+        np.array(camera["centre"]),
+        camera["distance"],
+    )
+    for moment in ("before", "after"):
+        seen = np.array(behind[moment])
+        np.testing.assert_allclose(seen[:, 3:], known.project(seen[:, :3]), atol=0.02)
+    assert behind["turned"] > SEEN
+    assert behind["opacity"] == "0.25"
+    assert behind["calm"] > SEEN
+    assert (behind["back"], behind["hidden"]) == (0, True)
 
 
 def test_no_serious_barrier_is_found(report) -> None:

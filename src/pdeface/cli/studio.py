@@ -13,6 +13,7 @@ from pdeface.errors import require
 
 if TYPE_CHECKING:
     from pdeface import Face
+    from pdeface.photo import PhotoView
 
 __all__ = ["studio"]
 
@@ -59,22 +60,24 @@ def studio(
     from pdeface.studio.server import serve
 
     folder()  # before a photo is worked on for nothing
-    face = _first(source, model)
-    serve(face, host=host, port=port, browser=browser, model=str(model) if model else None)
+    face, photos = _first(source, model)
+    given = str(model) if model else None
+    serve(face, host=host, port=port, browser=browser, model=given, photos=photos)
 
 
-def _first(source: Path | None, model: Path | None) -> Face:
+def _first(source: Path | None, model: Path | None) -> tuple[Face, tuple[PhotoView, ...]]:
+    """The face to begin with, and the photos that it was made of."""
     import pdeface
     from pdeface.cli.making import made_from
     from pdeface.cli.report import Report
     from pdeface.cli.wishes import Wishes
 
     if source is not None and source.suffix.lower() == ".pdeface":
-        return pdeface.load(source)
+        return pdeface.load(source), ()
     wishes = Wishes(
         points=None, face_number=1, model=model, neutral_shape=False, texture=None, delight=False,
         level=None, random=None, weights={}, clamp=False, mesh=(55, 81), join="smooth",
         openings="cut", visemes=False, expressions=None,
     )  # fmt: skip
     sources = [] if source is None else [source]
-    return made_from(sources, wishes, wishes.start(), Report(quiet=True))[0]
+    return made_from(sources, wishes, wishes.start(), Report(quiet=True))

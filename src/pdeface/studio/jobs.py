@@ -18,7 +18,7 @@ from pdeface.studio.schema import FaceInfo, JobInfo, PhotoInfo
 __all__ = ["Jobs", "Result", "Tell", "job_routes"]
 
 Tell = Callable[[str], None]
-Result = tuple[FaceInfo | None, PhotoInfo | None]
+Result = tuple[FaceInfo | None, list[PhotoInfo]]
 
 _KEPT = 64
 
@@ -39,15 +39,15 @@ class Jobs:
             message: what it does, for the page.
             work: does it; is given a function that tells of its progress.
         """
-        info = JobInfo(secrets.token_hex(8), "running", message, None, None)
+        info = JobInfo(secrets.token_hex(8), "running", message, None, [])
         self._tell(info)
         self._pool.submit(self._run, info, work)
         return info
 
     def _run(self, info: JobInfo, work: Callable[[Tell], Result]) -> None:
         try:
-            face, photo = work(lambda text: self._tell(dataclasses.replace(info, message=text)))
-            self._tell(dataclasses.replace(info, state="done", face=face, photo=photo))
+            face, photos = work(lambda text: self._tell(dataclasses.replace(info, message=text)))
+            self._tell(dataclasses.replace(info, state="done", face=face, photos=photos))
         except Exception as error:  # whatever it is, the page must not wait for ever
             known = isinstance(error, PDEFaceError)
             text = str(error) if known else f"unexpected {type(error).__name__}: {error}"

@@ -2,224 +2,236 @@
 
 from __future__ import annotations
 
-import io
 import secrets
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from starlette.concurrency import run_in_threadpool
-from starlette.requests import Request
-from starlette.responses import Response
-from starlette.routing import BaseRoute, Route
 
-from pdeface.errors import InputError, require
+from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.images import encode_compact
-from pdeface.studio.jobs import Jobs, Result, Tell
-from pdeface.studio.requests import answered, as_json, json_body
-from pdeface.studio.schema import PhotoInfo, PhotoPoint
+from pdeface.studio.jobs import Result, Tell
+from pdeface.studio.photo_reading import lens_of, pixels_of
+from pdeface.studio.schema import CameraInfo, PhotoInfo, PhotoPoint
 from pdeface.studio.store import FaceStore, Kept
-from pdeface.texture import FeaturePoints, uv_texture
+from pdeface.texture import FeaturePoints, photo_mesh, portrait, uv_texture
 
-__all__ = ["PhotoDesk", "photo_routes"]
+if TYPE_CHECKING:
+    from pdeface.photo import PhotoFace, PhotoView
+
+__all__ = ["MOST_PHOTOS", "PhotoDesk"]
 
 Pixels = NDArray[np.uint8]
+Views = tuple["PhotoView", ...]
 
-MOST_PIXELS = 50_000_000
-_LIVE = 256
-_KEPT = 4
+MOST_PHOTOS = 8
+"""Of one person."""
+
+_KEPT, _PEOPLE = 10, 3
 
 
 @dataclass(frozen=True, eq=False)
 class Photo:
-    """A photo, and where its feature points are."""
+    """A photo, the focal length that it states, and the face that was found in it."""
 
     pixels: Pixels
-    info: PhotoInfo
+    focal: float | None
+    found: PhotoFace | None = None
 
 
 class PhotoDesk:
-    """The photos that were opened last.
+    """The photos that were opened last, and the people in them.
 
     Args:
         store: where faces go that are made of them.
         model: MediaPipe's model file, or None for the usual one.
+        first: photos that the studio was started with, as they were fitted; none for the bundled
+            portrait.
     """
 
-    def __init__(self, store: FaceStore, model: str | None = None) -> None:
-        self._store, self.model = store, model
+    def __init__(self, store: FaceStore, model: str | None = None, first: Views = ()) -> None:
+        self._store, self.model, self._first = store, model, first
         self._photos: Kept[Photo] = Kept(_KEPT, "photo")
+        self._people: Kept[Views] = Kept(_PEOPLE, "person")
+        self._textures: Kept[Pixels] = Kept(_PEOPLE, "texture")
 
-    def opened(self, data: bytes, tell: Tell) -> Result:
-        """A photo's face: found, fitted, textured.
+    def add(self, data: bytes) -> str:
+        """Keep a photo, and say its id.
 
         Args:
             data: bytes of a JPEG or PNG.
+
+        Raises:
+            InputError: no picture, or too large a one.
+        """
+        key = secrets.token_hex(8)
+        self._photos.put(key, Photo(pixels_of(data), lens_of(data)))
+        return key
+
+    def opened(self, data: bytes, tell: Tell) -> Result:
+        """A photo's face: found, fitted, textured; as :meth:`person` of one photo."""
+        return self.person([self.add(data)], tell)
+
+    def person(self, keys: Sequence[str], tell: Tell) -> Result:
+        """The face of the person in some photos, and the photos as they were fitted.
+
+        Args:
+            keys: ids of photos.
             tell: told what is being done.
 
         Raises:
-            InputError: no picture, too large a one, or no face in it.
+            InputError: no face in one of them, or too many photos.
             MissingExtraError: MediaPipe is not installed.
         """
-        from pdeface.photo import (
-            choose,
-            doubts,
-            feature_points,
-            find_faces,
-            model_file,
-            photo_views,
-            textured,
-        )
+        from pdeface.photo import photo_views
 
-        pixels = _pixels(data)
-        tell("looking for a face")
-        found = choose(find_faces(pixels, model_file(self.model)), 1, "the photo")
+        if not 1 <= len(keys) <= MOST_PHOTOS:
+            raise InputError(
+                f"a person has 1 to {MOST_PHOTOS} photos here, got {len(keys)}; leave some out"
+            )
+        photos = [self._looked_at(key, n, len(keys), tell) for n, key in enumerate(keys, 1)]
         tell("fitting the person's shape")
-        views = photo_views([pixels], [found])
-        face = views[0].shape.face.with_name("photo")
+        found = [photo.found for photo in photos if photo.found is not None]
+        views = photo_views([p.pixels for p in photos], found, [p.focal for p in photos])
         tell("reading the texture")
-        face = textured(face, views)
-        notes = list(doubts(found, pixels))
-        try:
-            points = feature_points(found)
-        except InputError as error:
-            return self._store.put(face), self._kept(pixels, None, [*notes, str(error)])
-        return self._store.put(face), self._kept(pixels, points, notes)
+        infos = self._kept(views, {id(p.pixels): key for p, key in zip(photos, keys, strict=True)})
+        texture = self._projected([info.id for info in infos])
+        face = views[0].shape.face.with_name("photo").with_texture(texture)
+        return self._store.put(face), infos
 
-    def bundled(self) -> PhotoInfo:
-        """The portrait that comes with the library, and its points."""
-        from pdeface.texture import portrait
+    def first(self) -> list[PhotoInfo]:
+        """The photos that the studio was started with; else the bundled portrait."""
+        from pdeface.photo import photo_views, portrait_face
 
-        pixels, points = portrait()[:2]
-        return self._kept(pixels, points, [])
+        if not self._first:
+            self._first = photo_views([portrait()[0]], [portrait_face()])
+        return self._kept(self._first, {})
 
     def picture(self, key: str) -> bytes:
         """The photo as the page shows it."""
         return encode_compact(np.ascontiguousarray(self._photos.get(key).pixels))
 
-    def warped(self, key: str, points: Any, size: int) -> Pixels:
-        """(size, size, 3) the paper's texture, by five steps, with these points."""
-        photo = self._photos.get(key)
-        return uv_texture(photo.pixels, _points(photo.info, points), (size, size)).image
+    def mesh(self, key: str, points: Any) -> list[list[float]]:
+        """The 7 x 7 mesh over a photo with these points, pixels, row after row."""
+        return _mesh(self._points(key, points))
 
-    def warped_face(self, face: Face, key: str, points: Any) -> Face:
-        """The face with the paper's texture of this photo."""
-        photo = self._photos.get(key)
-        texture = uv_texture(photo.pixels, _points(photo.info, points)).image
-        return face.with_texture(texture)
+    def texture(self, keys: Sequence[str], way: str, points: Any, size: int | None) -> Pixels:
+        """(H, W, 3) the texture that photos give.
+
+        Args:
+            keys: ids of the photos of a person, the one that is warped first.
+            way: ``"project"``, or ``"warp"`` for the paper's five steps.
+            points: where the feature points of the first photo are; for the warp.
+            size: texels across and down; None for what keeps the photos' detail.
+
+        Raises:
+            InputError: another way, unknown photos, or points that cannot be used.
+        """
+        if way == "warp":
+            pixels = self._photos.get(keys[0]).pixels
+            shape = (size, size) if size else None
+            return uv_texture(pixels, self._points(keys[0], points), shape).image
+        if way != "project":
+            raise InputError(f"a texture is made by 'project' or by 'warp', got {way!r}")
+        texture = self._projected(keys)
+        if size is None:
+            return texture
+        rows, columns = (np.arange(size) * side // size for side in texture.shape[:2])
+        return texture[rows[:, None], columns]
+
+    def textured(self, face: Face, keys: Sequence[str], way: str, points: Any) -> Face:
+        """The face with the texture of these photos."""
+        return face.with_texture(self.texture(keys, way, points, None))
 
     def points_file(self, key: str, points: Any) -> bytes:
         """The points as a file that ``pdeface make --points`` reads."""
         with TemporaryDirectory(prefix="pdeface-") as folder:
             path = Path(folder) / "points.json"
-            _points(self._photos.get(key).info, points).save(path)
+            self._points(key, points).save(path)
             return path.read_bytes()
 
-    def _kept(self, pixels: Pixels, points: FeaturePoints | None, notes: list[str]) -> PhotoInfo:
-        places: Mapping[str, Any] = points.positions if points else {}
-        info = PhotoInfo(
-            secrets.token_hex(8),
-            pixels.shape[1],
-            pixels.shape[0],
-            [PhotoPoint(name, float(x), float(y)) for name, (x, y) in places.items()],
-            notes,
-        )
-        self._photos.put(info.id, Photo(pixels, info))
-        return info
+    def _looked_at(self, key: str, number: int, count: int, tell: Tell) -> Photo:
+        """The photo with the face in it, which is looked for once."""
+        from pdeface.photo import choose, find_faces, model_file
+
+        photo = self._photos.get(key)
+        if photo.found is None:
+            name = "the photo" if count == 1 else f"photo {number} of {count}"
+            tell(f"looking for a face in {name}")
+            found = choose(find_faces(photo.pixels, model_file(self.model)), 1, name)
+            photo = replace(photo, found=found)
+            self._photos.put(key, photo)
+        return photo
+
+    def _kept(self, views: Views, keys: dict[int, str]) -> list[PhotoInfo]:
+        """What the page is told of the photos of a person; new ones are put on the desk."""
+        infos = []
+        for view in views:
+            key = keys.get(id(view.photo)) or secrets.token_hex(8)
+            self._photos.put(key, Photo(view.photo, None, view.found))
+            infos.append(_info(key, view))
+        self._people.put(_name([info.id for info in infos]), views)
+        return infos
+
+    def _projected(self, keys: Sequence[str]) -> Pixels:
+        """The texture read through the fitted face, once for each person."""
+        from pdeface.photo import projected_texture
+
+        name = _name(keys)
+        if name not in self._textures:
+            self._textures.put(name, projected_texture(self._people.get(name)))
+        return self._textures.get(name)
+
+    def _points(self, key: str, value: Any) -> FeaturePoints:
+        """The points as the page has them now.
+
+        Raises:
+            InputError: unknown names, or no numbers.
+        """
+        height, width = self._photos.get(key).pixels.shape[:2]
+        if not isinstance(value, dict):
+            raise InputError("points are (x, y) by the names that the photo has; reload the page")
+        return FeaturePoints(value, (width, height))
 
 
-def _points(info: PhotoInfo, value: Any) -> FeaturePoints:
-    """The points as the page has them now.
-
-    Raises:
-        InputError: others than the photo has, or no numbers.
-    """
-    names = {point.name for point in info.points}
-    if not isinstance(value, dict) or set(value) != names:
-        raise InputError("points are (x, y) by the names that the photo has; reload the page")
-    return FeaturePoints(value, (info.width, info.height))
+def _name(keys: Sequence[str]) -> str:
+    """Of a person, by the photos in whatever order."""
+    return " ".join(sorted(keys))
 
 
-def _pixels(data: bytes) -> Pixels:
-    """The texels of a photo, turned as its EXIF says.
+def _mesh(points: FeaturePoints) -> list[list[float]]:
+    rounded: list[list[float]] = photo_mesh(points).reshape(-1, 2).round(2).tolist()
+    return rounded
 
-    Raises:
-        InputError: damaged, or too many pixels.
-    """
-    image_module = require("PIL.Image", "texture", "to read photos")
-    turned = require("PIL.ImageOps", "texture", "to read photos").exif_transpose
+
+def _info(key: str, view: PhotoView) -> PhotoInfo:
+    from pdeface.photo import doubts, feature_points
+
+    notes = doubts(view.found, view.photo)
+    places, mesh = {}, []
     try:
-        image = image_module.open(io.BytesIO(data), formats=("PNG", "JPEG"))
-        if image.width * image.height > MOST_PIXELS:
-            raise InputError(
-                f"a photo may have {MOST_PIXELS // 10**6} megapixels here, got {image.width} x "
-                f"{image.height}; make it smaller"
-            )
-        return np.array(turned(image).convert("RGB"), dtype=np.uint8)
-    except InputError:
-        raise
-    except Exception as error:  # Pillow's decoders raise nearly anything on damaged files.
-        raise InputError(
-            f"the photo cannot be read ({error}); it is damaged, save it again"
-        ) from error
-
-
-class PhotoRoutes:
-    """The endpoints of photos."""
-
-    def __init__(self, desk: PhotoDesk, store: FaceStore, jobs: Jobs) -> None:
-        self._desk, self._store, self._jobs = desk, store, jobs
-
-    async def picture(self, request: Request) -> Response:
-        """The photo itself."""
-        data = await run_in_threadpool(self._desk.picture, request.path_params["id"])
-        kind = "image/png" if data.startswith(b"\x89PNG") else "image/jpeg"
-        return Response(data, media_type=kind)
-
-    async def warp(self, request: Request) -> Response:
-        """The texture that the points give, small: made anew while they are dragged."""
-        value = await json_body(request)
-
-        def made() -> bytes:
-            from pdeface.images import encode_jpeg
-
-            return encode_jpeg(
-                self._desk.warped(request.path_params["id"], value.get("points"), _LIVE)
-            )
-
-        return Response(await run_in_threadpool(made), media_type="image/jpeg")
-
-    async def apply(self, request: Request) -> Response:
-        """A face with the paper's texture of these points."""
-        value = await json_body(request)
-        face = self._store.get(str(value.get("face")))
-        key, points = request.path_params["id"], value.get("points")
-        made = await run_in_threadpool(self._desk.warped_face, face, key, points)
-        return as_json(replace(self._store.put(made), weights={}))
-
-    async def points(self, request: Request) -> Response:
-        """The points as a file."""
-        value = await json_body(request)
-        data = self._desk.points_file(request.path_params["id"], value.get("points"))
-        return Response(data, media_type="application/octet-stream")
-
-    async def bundled(self, request: Request) -> Response:
-        """The bundled portrait."""
-        return as_json(await run_in_threadpool(self._desk.bundled))
-
-
-def photo_routes(desk: PhotoDesk, store: FaceStore, jobs: Jobs) -> list[BaseRoute]:
-    """The routes of photos."""
-    routes = PhotoRoutes(desk, store, jobs)
-    return [
-        Route("/api/photos/bundled", answered(routes.bundled)),
-        Route("/api/photos/{id}", answered(routes.picture)),
-        Route("/api/photos/{id}/warp", answered(routes.warp), methods=["POST"]),
-        Route("/api/photos/{id}/points", answered(routes.points), methods=["POST"]),
-        Route("/api/photos/{id}/apply", answered(routes.apply), methods=["POST"]),
-    ]
+        points = feature_points(view.found)
+        places, mesh = dict(points.positions), _mesh(points)
+    except InputError as error:  # turned too far for the paper's way, not for the other
+        notes = [*notes, str(error)]
+    camera = view.shape.camera
+    return PhotoInfo(
+        key,
+        view.photo.shape[1],
+        view.photo.shape[0],
+        [PhotoPoint(name, float(x), float(y)) for name, (x, y) in places.items()],
+        mesh,
+        CameraInfo(
+            camera.rotation.ravel().round(7).tolist(),
+            camera.scale,
+            camera.centre.tolist(),
+            camera.distance,
+        ),
+        {name: round(weight, 4) for name, weight in view.shape.expression.items() if weight > 5e-4},
+        notes,
+    )

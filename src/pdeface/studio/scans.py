@@ -62,4 +62,4 @@ def fitted(store: FaceStore, data: bytes, suffix: str, model: str | None, tell: 
     tell("measuring the fit")
     there = measure(found).to_scan
     note = f"fitted: RMS {there.rms:.2f} mm from the scan, median {there.median:.2f}"
-    return store.put(face.with_notes({"fit": note})), None
+    return store.put(face.with_notes({"fit": note})), []

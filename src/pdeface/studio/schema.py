@@ -15,6 +15,7 @@ from pdeface.motion import CLIPS
 __all__ = [
     "DENSITIES",
     "ArrayInfo",
+    "CameraInfo",
     "ClipInfo",
     "ControlInfo",
     "Density",
@@ -25,6 +26,7 @@ __all__ = [
     "Opened",
     "PhotoInfo",
     "PhotoPoint",
+    "PhotosInfo",
     "Preset",
     "Schema",
     "schema",
@@ -145,14 +147,40 @@ class PhotoPoint:
 
 
 @dataclass(frozen=True)
+class CameraInfo:
+    """The camera of a photo, as :class:`pdeface.photo.camera.PhotoCamera` has it.
+
+    ``rotation`` has the rows of R one after the other.
+    """
+
+    rotation: list[float]
+    scale: float
+    centre: list[float]
+    distance: float
+
+
+@dataclass(frozen=True)
 class PhotoInfo:
-    """A photo that the server knows by ``id``, and the points in it."""
+    """A photo that the server knows by ``id``: the points in it and the 7 x 7 mesh of Fig. 6.
+
+    ``camera`` took it, and ``expression`` is what the face does in it.
+    """
 
     id: str
     width: int
     height: int
     points: list[PhotoPoint]
+    mesh: list[list[float]]
+    camera: CameraInfo
+    expression: Mapping[str, float]
     notes: list[str]
+
+
+@dataclass(frozen=True)
+class PhotosInfo:
+    """Photos of one person, the one seen from the front first."""
+
+    photos: list[PhotoInfo]
 
 
 @dataclass(frozen=True)
@@ -163,7 +191,7 @@ class JobInfo:
     state: str
     message: str
     face: FaceInfo | None
-    photo: PhotoInfo | None
+    photos: list[PhotoInfo]
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,8 @@ from pdeface.studio.faces import face_routes
 from pdeface.studio.guard import Guard, is_loopback
 from pdeface.studio.jobs import Jobs, job_routes
 from pdeface.studio.opening import open_routes
-from pdeface.studio.photos import PhotoDesk, photo_routes
+from pdeface.studio.photo_routes import photo_routes
+from pdeface.studio.photos import PhotoDesk, Views
 from pdeface.studio.store import FaceStore
 
 __all__ = ["application", "serve"]
@@ -38,6 +39,7 @@ def application(
     port: int,
     token: str | None = None,
     model: str | None = None,
+    photos: Views = (),
 ) -> Starlette:
     """The studio as an ASGI application.
 
@@ -47,13 +49,14 @@ def application(
         host, port: where it is served.
         token: what a visitor must know, or None.
         model: MediaPipe's model file, or None for the usual one.
+        photos: of which the face was made, if it was.
     """
     store, jobs = FaceStore(), Jobs()
-    photos = PhotoDesk(store, model)
+    desk = PhotoDesk(store, model, photos)
     routes = [
         *face_routes(store, store.put(face)),
-        *open_routes(store, photos, jobs),
-        *photo_routes(photos, store, jobs),
+        *open_routes(store, desk, jobs),
+        *photo_routes(desk, store, jobs),
         *job_routes(jobs),
         Mount("/", StaticFiles(directory=pages, html=True)),
     ]
@@ -62,7 +65,7 @@ def application(
 
 
 def serve(face: Face, *, host: str = "127.0.0.1", port: int | None = None, browser: bool = True,
-          model: str | None = None) -> None:  # fmt: skip
+          model: str | None = None, photos: Views = ()) -> None:  # fmt: skip
     """Serve the studio until it is interrupted, and open a browser on it.
 
     Args:
@@ -71,6 +74,7 @@ def serve(face: Face, *, host: str = "127.0.0.1", port: int | None = None, brows
         port: port to listen at; None for the first free one from 8640 on.
         browser: whether to open the page.
         model: MediaPipe's model file, or None for the usual one.
+        photos: of which the face was made, if it was.
 
     Raises:
         InputError: the port is taken, or the address is not this machine's.
@@ -80,7 +84,7 @@ def serve(face: Face, *, host: str = "127.0.0.1", port: int | None = None, brows
     listener = _listener(host, port)
     number = int(listener.getsockname()[1])
     token = None if is_loopback(host) else secrets.token_urlsafe(24)
-    app = application(face, pages, host, number, token, model)
+    app = application(face, pages, host, number, token, model, photos)
     shown = f"[{host}]" if ":" in host else host
     url = f"http://{shown}:{number}/" + (f"?token={token}" if token else "")
     sys.stdout.write(f"studio at {url} (Ctrl+C ends it)\n")

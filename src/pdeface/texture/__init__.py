@@ -13,7 +13,7 @@ that the centre of pixel [row, column] is at (column + 1/2, row + 1/2).
 from __future__ import annotations
 
 from pdeface.texture._result import UVTexture
-from pdeface.texture.five_steps import uv_texture
+from pdeface.texture.five_steps import photo_mesh, uv_texture
 from pdeface.texture.photos import read_photo, write_image
 from pdeface.texture.points import POINT_NAMES, FeaturePoints
 from pdeface.texture.portrait import portrait
@@ -25,6 +25,7 @@ __all__ = [
     "FeaturePoints",
     "PhotoLayer",
     "UVTexture",
+    "photo_mesh",
     "portrait",
     "project",
     "read_photo",

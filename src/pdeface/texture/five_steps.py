@@ -26,7 +26,7 @@ from pdeface.texture._upright import set_upright
 from pdeface.texture.points import FeaturePoints
 from pdeface.texture.warp import Engine, warp
 
-__all__ = ["uv_texture"]
+__all__ = ["photo_mesh", "uv_texture"]
 
 FloatArray = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
@@ -108,6 +108,21 @@ def uv_texture(
         target_mesh=_grid.uv_nodes(uv)[..., ::-1] * texel,
         grid_mesh=grid.to_photo(target),
     )
+
+
+def photo_mesh(points: FeaturePoints) -> FloatArray:
+    """(7, 7, 2) the source warp mesh M_s over the photo, pixels: Fig. 6(c), without the warp.
+
+    Args:
+        points: the feature points, on a photo however tilted.
+
+    Raises:
+        InputError: two points are in crossing order.
+    """
+    points.validate(points.image_size[::-1])
+    uv = _grid.check_targets(_template_targets())
+    grid = _grid.fit_grid(points, uv, neutral_front)
+    return grid.to_photo(_grid.warp_meshes(points, uv, grid)[0])
 
 
 def _warp_marked(
