@@ -88,6 +88,9 @@ export const api = {
   export: async (id: string, request: ExportRequest) =>
     (await post(`${face(id)}/export`, request)).blob(),
   open: (file: Blob) => json<Opened>(post("/api/open", file)),
+  scan: (id: string) => packet(ask(`/api/scans/${encodeURIComponent(id)}`)),
+  distances: (id: string, faceId: string, size: Size, weights: Weights) =>
+    packet(post(`/api/scans/${encodeURIComponent(id)}/distances`, { ...size, face: faceId, weights })),
   clip: (name: string) => json<ClipInfo>(ask(`/api/clips/${encodeURIComponent(name)}`)),
   firstPhotos: () => json<PhotosInfo>(ask("/api/photos/first")),
   addPhoto: (file: Blob) => json<{ id: string }>(post("/api/photos", file)),

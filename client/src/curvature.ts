@@ -1,6 +1,7 @@
 // Mean curvature of the skin as colours: blue is hollow, red is round, pale is flat.
 
 import * as THREE from "three";
+import { between, paint } from "./paint";
 import type { Head } from "./head";
 
 // 1/m at which colours are full: a sphere of 12 mm.
@@ -8,7 +9,7 @@ const FULL = 80;
 const STOPS = [0x2b5fb4, 0x7fb2e0, 0xe9e4da, 0xeea36f, 0xb63a2b].map((c) => new THREE.Color(c));
 
 export function curvatureColours(head: Head): void {
-  const { mesh, start, count, index } = head.skin;
+  const { start, count, index } = head.skin;
   const sum = new Float32Array(count);
   const edges = new Float32Array(count);
   const p = head.morph.positions;
@@ -33,18 +34,8 @@ export function curvatureColours(head: Head): void {
       }
     }
   }
-  let colours = mesh.geometry.getAttribute("color") as THREE.BufferAttribute | undefined;
-  if (!colours) {
-    colours = new THREE.BufferAttribute(new Float32Array(3 * count), 3);
-    mesh.geometry.setAttribute("color", colours);
-  }
-  const colour = new THREE.Color();
-  for (let node = 0; node < count; node++) {
+  paint(head, (node, colour) => {
     const curvature = edges[node] ? sum[node]! / edges[node]! : 0;
-    const at = (Math.max(-1, Math.min(1, curvature / FULL)) + 1) * 2;
-    const low = Math.min(3, Math.floor(at));
-    colour.lerpColors(STOPS[low]!, STOPS[low + 1]!, at - low);
-    colours.setXYZ(node, colour.r, colour.g, colour.b);
-  }
-  colours.needsUpdate = true;
+    between(STOPS, (Math.max(-1, Math.min(1, curvature / FULL)) + 1) / 2, colour);
+  });
 }

@@ -3,7 +3,7 @@
 import { api } from "./api";
 import { h } from "./dom";
 import type { Jobs } from "./jobs";
-import type { ClipInfo, JobInfo, PhotoInfo } from "./schema";
+import type { ClipInfo, JobInfo, PhotoInfo, ScanInfo } from "./schema";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
@@ -16,6 +16,7 @@ export class Files {
     private stage: HTMLElement,
     private onClip: (clip: ClipInfo) => void,
     private onPhotos: (photos: readonly PhotoInfo[]) => void,
+    private onScan: (scan: ScanInfo) => void,
   ) {
     stage.append(this.#progress);
     const over = (event: DragEvent) => {
@@ -74,14 +75,15 @@ export class Files {
   }
 
   #watch(job: JobInfo, name: string, label: string): void {
-    this.jobs.watch(job, ({ state, message, face, photos }) => {
+    this.jobs.watch(job, ({ state, message, share, face, photos, scan }) => {
       // Over a dialogue that is open, if one is.
       (document.querySelector<HTMLElement>("dialog[open]") ?? this.stage).append(this.#progress);
       this.#progress.hidden = state !== "running";
-      this.#progress.replaceChildren(h("span", { class: "spinner" }), `${name}: ${message}…`);
+      this.#progress.replaceChildren(h("span", { class: "spinner" }), h("div", {},
+        `${name}: ${message}…`, h("progress", { value: share, "aria-label": "How far it is" })));
       if (state === "failed") toast(new Error(message));
       if (state !== "done" || !face) return;
-      void this.studio.adopt({ ...face, name }, label);
+      void this.studio.adopt({ ...face, name }, label).then(() => scan && this.onScan(scan));
       for (const note of photos.flatMap(({ notes }) => notes)) toast(note);
       if (photos.length) this.onPhotos(photos);
     });

@@ -17,6 +17,7 @@ import { Panel } from "./panel";
 import { Overlay } from "./overlay";
 import { PhotoDesk } from "./photo";
 import type { ClipInfo, PhotoInfo } from "./schema";
+import { ScanView } from "./scan";
 import { keepSession, lastSession, ownSession, type Session } from "./storage";
 import { Studio } from "./studio";
 import { setTheme, theme } from "./theme";
@@ -49,6 +50,7 @@ async function start(): Promise<void> {
   const jobs = new Jobs(() => void studio.refine());
   const motion = new Motion(studio, stage);
   const handles = new Handles(studio, stage);
+  const scan = new ScanView(studio, tools, stage);
   const overlay = new Overlay(studio, stage);
   let photos: readonly PhotoInfo[] | null = null;
   let desk: PhotoDesk | null = null;
@@ -60,6 +62,9 @@ async function start(): Promise<void> {
     photos = found;
     overlay.leave();
     if (desk?.isOpen) desk.update(found);
+  }, (found) => {
+    overlay.leave();
+    scan.show(found);
   });
   // Of these photos the face was made; else there is the bundled portrait to try.
   const withPhotos = async (act: (all: readonly PhotoInfo[]) => void) => {
@@ -130,7 +135,7 @@ async function start(): Promise<void> {
   studio.addEventListener("shown", dress);
   if (own) toast("Your work was recovered.");
   else if (left && worthIt(left)) offer(left, timeline);
-  Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, api });
+  Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, scan, api });
   await studio.load();
   welcome(() => help(shortcuts));
   await studio.keepCurrent();

@@ -5,6 +5,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { curvatureColours } from "./curvature";
+import { distanceColours } from "./distance";
 import type { Head } from "./head";
 
 export const MODES = [
@@ -14,6 +15,8 @@ export const MODES = [
   { name: "wireframe", label: "Wireframe" },
   { name: "uvmesh", label: "UV mesh" },
   { name: "curves", label: "Curves" },
+  // Shown where there is a scan.
+  { name: "distance", label: "Distance" },
 ] as const;
 
 export type Mode = (typeof MODES)[number]["name"];
@@ -26,6 +29,8 @@ export class Display {
   mode: Mode = "textured";
   // Boundary curves over whatever else is shown.
   overlay = false;
+  // Millimetres from each vertex of the skin to the scan, -1 where it has none.
+  distances: Float32Array | null = null;
   #lines: LineSegments2 | null = null;
   #theme: "dark" | "light" = "dark";
   readonly #clay = new Map<string, THREE.MeshStandardMaterial>();
@@ -74,6 +79,7 @@ export class Display {
   // Vertices have moved: what is drawn from them follows.
   moved(): void {
     if (this.mode === "curvature") curvatureColours(this.head);
+    if (this.mode === "distance") distanceColours(this.head, this.distances);
     if (this.#lines) this.#lines.geometry.setPositions(this.#segments());
   }
 
@@ -86,9 +92,11 @@ export class Display {
     if (mode === "textured" || mode === "uvmesh") return own;
     if (mode === "shaded") return this.#clayOf(kind);
     if (kind === "skin") {
-      return { curvature: this.#curvature, wireframe: this.#wire, curves: this.#fill }[mode];
+      return {
+        curvature: this.#curvature, distance: this.#curvature, wireframe: this.#wire, curves: this.#fill,
+      }[mode];
     }
-    if (mode === "curvature") return this.#clayOf(kind);
+    if (mode === "curvature" || mode === "distance") return this.#clayOf(kind);
     return kind === "eye" ? this.#fill : this.#hidden;
   }
 

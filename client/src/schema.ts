@@ -115,13 +115,25 @@ export interface PhotosInfo {
   readonly photos: readonly (PhotoInfo)[];
 }
 
-/** How far a job has come: ``state`` is ``"running"``, ``"done"`` or ``"failed"``. */
+/** A scan that a face was fitted to, in the frame of the face. ``rms``, ``median`` and ``largest`` are millimetres from the face's front to the scan, ``coverage`` is the share of the front that the scan has. */
+export interface ScanInfo {
+  readonly id: string;
+  readonly vertices: number;
+  readonly rms: number;
+  readonly median: number;
+  readonly largest: number;
+  readonly coverage: number;
+}
+
+/** How far a job has come: ``state`` is ``"running"``, ``"done"`` or ``"failed"``. ``share`` of its time is over, about. */
 export interface JobInfo {
   readonly id: string;
   readonly state: string;
   readonly message: string;
+  readonly share: number;
   readonly face: FaceInfo | null;
   readonly photos: readonly (PhotoInfo)[];
+  readonly scan: ScanInfo | null;
 }
 
 /** What a file turned out to be: one of these. */

@@ -28,6 +28,7 @@ export class Tools {
     const modes = h("div", { class: "float modes", role: "group", "aria-label": "How it is shown" });
     MODES.forEach(({ name, label }) => {
       const button = h("button", { onclick: () => this.mode(name), title: `${label} (M for the next)` }, label);
+      button.hidden = name === "distance";
       this.#modes.set(name, button);
       modes.append(button);
     });
@@ -61,11 +62,17 @@ export class Tools {
     display.apply();
     this.studio.viewer.draw();
     this.#show();
+    this.studio.dispatchEvent(new Event("shown-otherwise"));
   }
 
-  nextMode(by = 1): void {
-    const at = MODES.findIndex(({ name }) => name === this.studio.viewer.display?.mode);
-    this.mode(MODES[(at + by + MODES.length) % MODES.length]!.name);
+  nextMode(): void {
+    const offered = MODES.filter(({ name }) => !this.#modes.get(name)!.hidden);
+    const at = offered.findIndex(({ name }) => name === this.studio.viewer.display?.mode);
+    this.mode(offered[(at + 1) % offered.length]!.name);
+  }
+
+  offer(name: Mode, offered: boolean): void {
+    this.#modes.get(name)!.hidden = !offered;
   }
 
   curves(): void {

@@ -119,3 +119,9 @@ def finished(client: TestClient) -> Callable[[str, str], dict[str, Any]]:
                     return told
 
     return waited
+
+
+@pytest.fixture
+def told_model(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """MediaPipe's model, where the server looks for it."""
+    monkeypatch.setenv("PDEFACE_MODEL", str(model))

@@ -27,6 +27,7 @@ export async function flows(page, { folder, gone, expecting }) {
   await timed("behind", () => behind(page));
   await timed("barriers", () => barriers(page));
   await timed("shown", () => shown(page, folder));
+  if (process.env.PDEFACE_MODEL) await timed("scan", () => scanned(page, folder));
   await timed("files", () => files(page, folder, expecting));
   await timed("alone", () => alone(page, gone));
   expecting(false);
@@ -339,6 +340,45 @@ async function behind(page) {
   found.back = await page.evaluate(() => changed(before, pixels()));
   found.hidden = await page.locator(".behind").isHidden();
   found.weights = await page.evaluate(() => studio.doc.weights);
+  return found;
+}
+
+// A scan is fitted: its distances in colours, itself over the face, and gone again.
+async function scanned(page, folder) {
+  const before = await page.evaluate(() => studio.timeline.at);
+  const bytes = (await readFile(join(folder, "scan.ply"))).toString("base64");
+  await page.evaluate(async (text) => {
+    window.told = [];
+    const watch = new MutationObserver(() => told.push(document.querySelector(".progress").textContent));
+    watch.observe(document.querySelector(".progress"), { childList: true });
+    const data = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    await files.take(new File([data], "person.ply"));
+  }, bytes);
+  const measured = () => page.waitForFunction(() => exact() && viewer.display.distances?.length === studio.head.skin.count, null, { polling: 50 });
+  await page.waitForFunction(() => scan.info, null, { polling: 50 });
+  await measured();
+  await page.waitForTimeout(500);
+  const found = { steps: await page.evaluate(() => told.length), name: await page.evaluate(() => studio.doc.name) };
+  found.legend = await page.locator(".legend").textContent();
+  found.mode = await page.evaluate(() => viewer.display.mode);
+  found.away = await page.evaluate(() => [...viewer.display.distances]);
+  await page.evaluate(() => (window.before = pixels()));
+  await page.locator("#veil").click();
+  await page.waitForFunction(() => changed(before, pixels()) > 1000, null, { polling: 50 });
+  await page.locator("#veil").click();
+  found.unveiled = await page.evaluate(() => changed(before, pixels()));
+  await page.evaluate(() => {
+    window.old = viewer.display.distances;
+    studio.commit("Nose", { noseLength: 1 });
+  });
+  await page.waitForFunction(() => exact() && viewer.display.distances !== old, null, { polling: 50 });
+  found.farther = await page.evaluate(() => [...viewer.display.distances]);
+  found.coloured = await page.evaluate(() => changed(before, pixels()));
+  await page.getByRole("button", { name: "Without the scan" }).click();
+  found.after = await page.evaluate(() => viewer.display.mode);
+  found.offered = await page.getByRole("button", { name: "Distance", exact: true }).isVisible();
+  await page.evaluate((at) => studio.timeline.go(at), before);
+  await settle(page);
   return found;
 }
 

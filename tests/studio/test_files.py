@@ -13,7 +13,6 @@ import pytest
 import pdeface
 from pdeface.motion import clip, write
 from pdeface.studio import requests
-from pdeface.studio.scans import scan_suffix
 
 
 def saved(visitor, weights, folder: Path) -> pdeface.Face:
@@ -92,39 +91,6 @@ def test_damaged_files_are_refused_in_a_line(sent) -> None:
         answer = sent(data)
         assert answer.status_code == 422, answer.text
         assert "\n" not in answer.json()["error"]
-
-
-@pytest.mark.parametrize("suffix", [".ply", ".obj", ".stl", ".glb"])
-def test_scans_are_told_by_their_content(tmp_path, suffix: str) -> None:
-    path = tmp_path / f"scan{suffix}"
-    pdeface.export(pdeface.neutral(), path)
-    assert scan_suffix(path.read_bytes()) == suffix
-
-
-@pytest.mark.parametrize(
-    "data", [b"", b"ply", b"v of nothing", b"solid gold", bytes(90), b"\x89PNG\r\n\x1a\n"]
-)
-def test_what_is_no_scan_is_not_taken_for_one(data: bytes) -> None:
-    assert scan_suffix(data) == ""
-
-
-def test_a_scan_of_nothing_fails_with_a_line(finished, sent) -> None:
-    job = sent(b"v 0 0 0\nv 0 1 0\nv 1 0 0\nf 1 2 3\n").json()["job"]
-    assert "vertices" in finished(job["id"], "failed")["message"]
-
-
-def test_a_scan_becomes_a_face(client, finished, sent, shared_data, monkeypatch, tmp_path) -> None:
-    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
-    path = tmp_path / "head.ply"
-    pdeface.export(pdeface.neutral().set(noseLength=0.8), path, mesh=(109, 161))
-    job = sent(path.read_bytes()).json()["job"]
-    done = finished(job["id"], "done")
-    assert done["face"]["curves"] >= 28
-    answer = client.post(
-        f"/api/faces/{done['face']['id']}/evaluate",
-        json={"rows": 28, "columns": 41, "states": [{}]},
-    )
-    assert answer.status_code == 200
 
 
 def test_too_large_a_file_is_refused_before_it_is_read(sent, monkeypatch) -> None:

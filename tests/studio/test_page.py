@@ -20,6 +20,7 @@ from pdeface.studio import assets
 
 HERE = Path(__file__).parent
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
+MODEL = Path("models", "face_landmarker.task")
 SEEN = 200
 """Pixels, of some 300,000."""
 
@@ -65,7 +66,13 @@ def report(folder: Path, person: pdeface.Face) -> dict[str, Any]:
     person.save(folder / "ada.pdeface")
     source = [str(folder / "ada.pdeface"), str(folder)]
     command = ["node", str(HERE / "browser.mjs"), browser, sys.executable, *source]
-    answer = subprocess.run(command, capture_output=True, text=True, check=False, timeout=600)
+    pdeface.export(person, folder / "scan.ply", mesh=(109, 161))
+    model = Path(os.environ.get("PDEFACE_SHARED") or HERE.parents[2] / "shared") / MODEL
+    told = {"PDEFACE_MODEL": str(model)} if model.is_file() else {}
+    answer = subprocess.run(
+        command, capture_output=True, text=True, check=False, timeout=600,
+        env={**os.environ, **told},
+    )  # fmt: skip
     assert answer.returncode == 0, answer.stderr
     found: dict[str, Any] = json.loads(answer.stdout)
     return found
@@ -211,6 +218,20 @@ def test_before_and_after_and_a_film(report, folder: Path) -> None:
     film = (folder / "blink.webm").read_bytes()
     assert film.startswith(b"\x1a\x45\xdf\xa3")
     assert len(film) > 2000
+
+
+@pytest.mark.usefixtures("model")
+def test_a_scan_is_fitted_and_measured(report) -> None:
+    scan = report["scan"]
+    assert scan["steps"] > 4
+    assert (scan["name"], scan["mode"]) == ("person", "distance")
+    assert "RMS 0." in scan["legend"]
+    near, far = (np.array(scan[moment]) for moment in ("away", "farther"))
+    assert np.median(near[near >= 0]) < 0.1
+    assert far.max() > near.max()
+    assert scan["coloured"] > SEEN
+    assert scan["unveiled"] == 0
+    assert (scan["after"], scan["offered"]) == ("textured", False)
 
 
 def test_saved_and_exported_files_are_what_was_shown(report, folder: Path) -> None:

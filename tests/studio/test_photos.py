@@ -14,12 +14,6 @@ from pdeface.texture import portrait
 
 
 @pytest.fixture
-def model(shared_data, monkeypatch) -> None:
-    """MediaPipe's model, where the server looks for it."""
-    monkeypatch.setenv("PDEFACE_MODEL", str(shared_data / "models" / "face_landmarker.task"))
-
-
-@pytest.fixture
 def first(client):
     """The bundled portrait, as the page hears of it, and its points by name."""
     photo = client.get("/api/photos/first").json()["photos"][0]
@@ -85,12 +79,12 @@ def test_a_texture_that_cannot_be_is_refused(client, first, value, message: str)
     assert message in answer.json()["error"]
 
 
-def test_a_photo_without_a_face_fails_with_a_line(finished, sent, model) -> None:
+def test_a_photo_without_a_face_fails_with_a_line(finished, sent, told_model) -> None:
     job = sent(encode_png(np.full((64, 64, 3), 128, np.uint8))).json()["job"]
     assert "no face was found" in finished(job["id"], "failed")["message"]
 
 
-def test_a_photo_becomes_a_face(client, finished, sent, model) -> None:
+def test_a_photo_becomes_a_face(client, finished, sent, told_model) -> None:
     job = sent(encode_png(portrait()[0])).json()["job"]
     done = finished(job["id"], "done")
     assert done["face"]["texture"]
@@ -107,7 +101,7 @@ def test_a_photo_becomes_a_face(client, finished, sent, model) -> None:
     assert client.post("/api/photos/texture", json=asked).status_code == 422
 
 
-def test_several_photos_are_of_one_person(client, finished, model) -> None:
+def test_several_photos_are_of_one_person(client, finished, told_model) -> None:
     photo = portrait()[0]
     sides = [photo, np.ascontiguousarray(photo[:, ::-1])]
     keys = [client.post("/api/photos", content=encode_png(s)).json()["id"] for s in sides]
@@ -127,7 +121,7 @@ def test_several_photos_are_of_one_person(client, finished, model) -> None:
     assert np.abs(both - texture(first)).mean() > 2
 
 
-def test_a_photo_among_others_without_a_face_is_named(client, finished, model) -> None:
+def test_a_photo_among_others_without_a_face_is_named(client, finished, told_model) -> None:
     blank = np.full((64, 64, 3), 128, np.uint8)
     photos = [portrait()[0], blank]
     keys = [client.post("/api/photos", content=encode_png(p)).json()["id"] for p in photos]

@@ -16,17 +16,21 @@ from pdeface.scan.alignment import Landmarks
 from pdeface.scan.fitting import ScanFit, fit_scan
 from pdeface.scan.landmark_file import load_landmarks
 from pdeface.scan.landmarks import find_landmarks
-from pdeface.scan.measures import Measures, Spread, measure
+from pdeface.scan.measures import Away, Measures, Spread, distances, measure
+from pdeface.scan.nearest import Target
 from pdeface.scan.reading import make_scan, read_scan
 from pdeface.scan.surface import Scan
 from pdeface.scan.texture import texture_of
 
 __all__ = [
+    "Away",
     "Landmarks",
     "Measures",
     "Scan",
     "ScanFit",
     "Spread",
+    "Target",
+    "distances",
     "find_landmarks",
     "fit_scan",
     "load_landmarks",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +13,7 @@ from pdeface.scan.fitting import ScanFit
 from pdeface.scan.nearest import Target, flat
 from pdeface.scan.surface import Scan
 
-__all__ = ["FRONT", "Measures", "Spread", "measure"]
+__all__ = ["FRONT", "Away", "Measures", "Spread", "distances", "measure"]
 
 FloatArray = NDArray[np.float64]
 
@@ -70,6 +71,32 @@ class Measures:
     known: NDArray[np.bool_]
 
 
+class Away(NamedTuple):
+    """How far places of a face are from a scan.
+
+    Attributes:
+        metres, degrees: (n,) distance, and angle between the normals of face and scan.
+        known: (n,) whether the scan has the place.
+    """
+
+    metres: FloatArray
+    degrees: FloatArray
+    known: NDArray[np.bool_]
+
+
+def distances(target: Target, points: FloatArray, normals: FloatArray) -> Away:
+    """How far (n, 3) places of a face, with (n, 3) unit normals, are from a scan, metres.
+
+    The scan has no place that is 5 mm or further from it, nor one further than half a millimetre
+    whose nearest place faces elsewhere.
+    """
+    found = target.nearest(points)
+    alike = (found.normals * normals).sum(axis=1)
+    angle = np.degrees(np.arccos(alike.clip(-1.0, 1.0)))
+    bridging = (found.away > _BRIDGE[0]) & (angle > _BRIDGE[1])
+    return Away(found.away, angle, (found.away < _HOLE) & ~bridging)
+
+
 def measure(fit: ScanFit) -> Measures:
     """Compare the smooth surface of a fit with its scan.
 
@@ -81,13 +108,11 @@ def measure(fit: ScanFit) -> Measures:
     u, v = np.linspace(0.0, 1.0, _ROWS), (np.arange(_COLUMNS) + 0.5) * (np.pi / _COLUMNS)
     grid = GridEvaluator(curves.shape, u, v)
     points, normals = (flat(of) for of in grid.positions_and_normals(curves.points))
-    found = Target(fit.scan).nearest(points)
-    away = found.away.reshape(_ROWS, _COLUMNS)
-    alike = (found.normals * normals).sum(axis=1)
+    found = distances(Target(fit.scan), points, normals)
+    away, angle = (of.reshape(_ROWS, _COLUMNS) for of in (found.metres, found.degrees))
+    known = found.known.reshape(away.shape)
     points = points.reshape(_ROWS, _COLUMNS, 3)
-    angle = np.degrees(np.arccos(alike.clip(-1.0, 1.0))).reshape(away.shape)
     front = np.broadcast_to((v > FRONT[0]) & (v < FRONT[1]), away.shape)
-    known = (away < _HOLE) & ~((away > _BRIDGE[0]) & (angle > _BRIDGE[1]))
     to_face = _back(fit.scan, points)
     return Measures(
         Spread.of(away[front & known]),

@@ -6,19 +6,36 @@ import asyncio
 import dataclasses
 import secrets
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from typing import Protocol
 
 from starlette.routing import BaseRoute, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pdeface.errors import PDEFaceError
-from pdeface.studio.schema import FaceInfo, JobInfo, PhotoInfo
+from pdeface.studio.schema import FaceInfo, JobInfo, PhotoInfo, ScanInfo
 
 __all__ = ["Jobs", "Result", "Tell", "job_routes"]
 
-Tell = Callable[[str], None]
-Result = tuple[FaceInfo | None, list[PhotoInfo]]
+
+class Tell(Protocol):
+    """Tells the page what a job is doing, and about what share of its time is over."""
+
+    def __call__(self, text: str, share: float = 0.0) -> None:
+        """Tell it."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a job has made: a face, of photos or of a scan."""
+
+    face: FaceInfo
+    photos: Sequence[PhotoInfo] = ()
+    scan: ScanInfo | None = None
+
 
 _KEPT = 64
 
@@ -39,20 +56,24 @@ class Jobs:
             message: what it does, for the page.
             work: does it; is given a function that tells of its progress.
         """
-        info = JobInfo(secrets.token_hex(8), "running", message, None, [])
+        info = JobInfo(secrets.token_hex(8), "running", message, 0.0, None, [], None)
         self._tell(info)
         self._pool.submit(self._run, info, work)
         return info
 
     def _run(self, info: JobInfo, work: Callable[[Tell], Result]) -> None:
         try:
-            face, photos = work(lambda text: self._tell(dataclasses.replace(info, message=text)))
-            self._tell(dataclasses.replace(info, state="done", face=face, photos=photos))
+            made = work(partial(self._progress, info))
+            done = dataclasses.replace(info, state="done", share=1.0, face=made.face)
+            self._tell(dataclasses.replace(done, photos=list(made.photos), scan=made.scan))
         except Exception as error:  # whatever it is, the page must not wait for ever
             known = isinstance(error, PDEFaceError)
             text = str(error) if known else f"unexpected {type(error).__name__}: {error}"
             message = " ".join(text.split())
             self._tell(dataclasses.replace(info, state="failed", message=message))
+
+    def _progress(self, info: JobInfo, text: str, share: float = 0.0) -> None:
+        self._tell(dataclasses.replace(info, message=text, share=share))
 
     def _tell(self, info: JobInfo) -> None:
         with self._lock:

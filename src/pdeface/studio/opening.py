@@ -17,7 +17,7 @@ from pdeface.motion import Track, clip, read
 from pdeface.studio.jobs import Jobs
 from pdeface.studio.photos import PhotoDesk
 from pdeface.studio.requests import answered, as_json, body
-from pdeface.studio.scans import fitted, scan_suffix
+from pdeface.studio.scans import ScanDesk, scan_suffix
 from pdeface.studio.schema import ClipInfo, Opened
 from pdeface.studio.store import FaceStore
 
@@ -94,8 +94,8 @@ def clip_info(name: str, track: Track) -> ClipInfo:
 class OpenRoutes:
     """The endpoints that take files, and clips by name."""
 
-    def __init__(self, store: FaceStore, photos: PhotoDesk, jobs: Jobs) -> None:
-        self._store, self._photos, self._jobs = store, photos, jobs
+    def __init__(self, store: FaceStore, photos: PhotoDesk, scans: ScanDesk, jobs: Jobs) -> None:
+        self._store, self._photos, self._scans, self._jobs = store, photos, scans, jobs
 
     async def open(self, request: Request) -> Response:
         """Whatever file it is."""
@@ -107,7 +107,7 @@ class OpenRoutes:
         if kind == "motion":
             return as_json(Opened(None, await run_in_threadpool(opened_motion, data), None))
         if kind != "photo":
-            work = partial(fitted, self._store, data, kind, self._photos.model)
+            work = partial(self._scans.fitted, data, kind)
             return as_json(Opened(None, None, self._jobs.start("reading the scan", work)))
         job = self._jobs.start("reading the photo", lambda tell: self._photos.opened(data, tell))
         return as_json(Opened(None, None, job))
@@ -118,9 +118,11 @@ class OpenRoutes:
         return as_json(clip_info(name, await run_in_threadpool(clip, name)))
 
 
-def open_routes(store: FaceStore, photos: PhotoDesk, jobs: Jobs) -> list[BaseRoute]:
+def open_routes(
+    store: FaceStore, photos: PhotoDesk, scans: ScanDesk, jobs: Jobs
+) -> list[BaseRoute]:
     """The routes of files and clips."""
-    routes = OpenRoutes(store, photos, jobs)
+    routes = OpenRoutes(store, photos, scans, jobs)
     return [
         Route("/api/open", answered(routes.open), methods=["POST"]),
         Route("/api/clips/{name}", answered(routes.clip)),

@@ -95,14 +95,14 @@ class PhotoDesk:
                 f"a person has 1 to {MOST_PHOTOS} photos here, got {len(keys)}; leave some out"
             )
         photos = [self._looked_at(key, n, len(keys), tell) for n, key in enumerate(keys, 1)]
-        tell("fitting the person's shape")
+        tell("fitting the person's shape", 0.4)
         found = [photo.found for photo in photos if photo.found is not None]
         views = photo_views([p.pixels for p in photos], found, [p.focal for p in photos])
-        tell("reading the texture")
+        tell("reading the texture", 0.75)
         infos = self._kept(views, {id(p.pixels): key for p, key in zip(photos, keys, strict=True)})
         texture = self._projected([info.id for info in infos])
         face = views[0].shape.face.with_name("photo").with_texture(texture)
-        return self._store.put(face), infos
+        return Result(self._store.put(face), infos)
 
     def first(self) -> list[PhotoInfo]:
         """The photos that the studio was started with; else the bundled portrait."""
@@ -162,7 +162,7 @@ class PhotoDesk:
         photo = self._photos.get(key)
         if photo.found is None:
             name = "the photo" if count == 1 else f"photo {number} of {count}"
-            tell(f"looking for a face in {name}")
+            tell(f"looking for a face in {name}", 0.4 * (number - 0.5) / count)
             found = choose(find_faces(photo.pixels, model_file(self.model)), 1, name)
             photo = replace(photo, found=found)
             self._photos.put(key, photo)

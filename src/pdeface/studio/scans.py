@@ -3,14 +3,39 @@
 from __future__ import annotations
 
 import re
+import secrets
 import struct
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from pdeface.studio.jobs import Result, Tell
-from pdeface.studio.store import FaceStore
+from pdeface.studio.schema import ScanInfo
+from pdeface.studio.store import FaceStore, Kept
 
-__all__ = ["fitted", "scan_suffix"]
+if TYPE_CHECKING:
+    from pdeface.scan import Target
+
+__all__ = ["MOST_VERTICES", "ScanDesk", "scan_suffix"]
+
+FloatArray = NDArray[np.float64]
+Float32 = NDArray[np.float32]
+
+MOST_VERTICES = 120_000
+"""Of a scan in the page."""
+
+_STEPS = {
+    "looking for": 0.15,
+    "looking": 0.25,
+    "aligning": 0.36,
+    "finding": 0.38,
+    "laying": 0.45,
+    "fitting": 0.83,
+}
+"""The steps of a fit by how they begin, and the share of its time that is over by then."""
 
 _STL_HEADER, _STL_TRIANGLE = 84, 50
 _BEGINNING = 65536
@@ -33,33 +58,85 @@ def scan_suffix(data: bytes) -> str:
     return ".obj" if text and re.search(rb"(?m)^v +-?[\d.]", beginning) else ""
 
 
-def fitted(store: FaceStore, data: bytes, suffix: str, model: str | None, tell: Tell) -> Result:
-    """A scan's face: curves fitted to it, and its colours where it has some.
+class ScanDesk:
+    """The scan that was fitted last, to see how near a face comes to it.
 
     Args:
-        store: where the face goes.
-        data: bytes of the file.
-        suffix: of its format.
+        store: where faces go.
         model: MediaPipe's model file, or None for the usual one.
-        tell: told what is being done.
-
-    Raises:
-        InputError: no scan, or no face in it.
-        MissingExtraError: what reads scans is not installed.
     """
-    from pdeface.scan import fit_scan, measure, read_scan, texture_of
 
-    with TemporaryDirectory(prefix="pdeface-") as folder:
-        path = Path(folder) / f"scan{suffix}"
-        path.write_bytes(data)
-        head = read_scan(path)
-    tell("fitting")
-    found = fit_scan(head, model=Path(model) if model else None, progress=tell)
-    tell("carrying the colours over")
-    image = texture_of(found)
-    face = found.face.with_name("scan")
-    face = face if image is None else face.with_texture(image)
-    tell("measuring the fit")
-    there = measure(found).to_scan
-    note = f"fitted: RMS {there.rms:.2f} mm from the scan, median {there.median:.2f}"
-    return store.put(face.with_notes({"fit": note})), []
+    def __init__(self, store: FaceStore, model: str | None = None) -> None:
+        self._store, self._model = store, model
+        self._targets: Kept[Target] = Kept(1, "scan")
+
+    def fitted(self, data: bytes, suffix: str, tell: Tell) -> Result:
+        """A scan's face: curves fitted to it, and its colours where it has some.
+
+        Args:
+            data: bytes of the file.
+            suffix: of its format.
+            tell: told what is being done.
+
+        Raises:
+            InputError: no scan, or no face in it.
+            MissingExtraError: what reads scans is not installed.
+        """
+        from pdeface.scan import Target, fit_scan, measure, read_scan, texture_of
+
+        with TemporaryDirectory(prefix="pdeface-") as folder:
+            path = Path(folder) / f"scan{suffix}"
+            path.write_bytes(data)
+            head = read_scan(path)
+        model = Path(self._model) if self._model else None
+        found = fit_scan(head, model=model, progress=lambda text: tell(text, _share(text)))
+        tell("carrying the colours over", 0.88)
+        image = texture_of(found)
+        face = found.face.with_name("scan")
+        face = face if image is None else face.with_texture(image)
+        tell("measuring the fit", 0.94)
+        measures = measure(found)
+        there = measures.to_scan
+        key = secrets.token_hex(8)
+        self._targets.put(key, Target(found.scan))
+        note = f"fitted: RMS {there.rms:.2f} mm from the scan, median {there.median:.2f}"
+        info = ScanInfo(
+            key,
+            len(found.scan.vertices),
+            there.rms,
+            there.median,
+            there.largest,
+            measures.coverage,
+        )
+        return Result(self._store.put(face.with_notes({"fit": note})), scan=info)
+
+    def distances(self, key: str, points: FloatArray, normals: FloatArray) -> Float32:
+        """(n,) millimetres from places of a face to a scan; -1 where the scan has none.
+
+        Raises:
+            InputError: the scan is not known (any more).
+        """
+        from pdeface.scan import distances
+
+        away = distances(self._targets.get(key), points, normals)
+        return np.where(away.known, 1e3 * away.metres, -1.0).astype(np.float32)
+
+    def drawn(self, key: str) -> dict[str, NDArray[np.floating | np.integer]]:
+        """``vertices`` (V, 3) and ``triangles`` (T, 3) of a scan, none of a cloud's.
+
+        A scan of more vertices than the page can show comes as some of its points.
+
+        Raises:
+            InputError: the scan is not known (any more).
+        """
+        scan = self._targets.get(key).scan
+        vertices = scan.vertices.astype(np.float32)
+        if len(vertices) <= MOST_VERTICES:
+            return {"vertices": vertices, "triangles": scan.triangles.astype(np.int32)}
+        step = -(-len(vertices) // MOST_VERTICES)
+        return {"vertices": vertices[::step], "triangles": np.zeros((0, 3), np.int32)}
+
+
+def _share(text: str) -> float:
+    """About how much of the time is over when the fit says this."""
+    return next((share for start, share in _STEPS.items() if text.startswith(start)), 0.0)

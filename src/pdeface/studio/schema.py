@@ -28,6 +28,7 @@ __all__ = [
     "PhotoPoint",
     "PhotosInfo",
     "Preset",
+    "ScanInfo",
     "Schema",
     "schema",
 ]
@@ -184,14 +185,35 @@ class PhotosInfo:
 
 
 @dataclass(frozen=True)
+class ScanInfo:
+    """A scan that a face was fitted to, in the frame of the face.
+
+    ``rms``, ``median`` and ``largest`` are millimetres from the face's front to the scan,
+    ``coverage`` is the share of the front that the scan has.
+    """
+
+    id: str
+    vertices: int
+    rms: float
+    median: float
+    largest: float
+    coverage: float
+
+
+@dataclass(frozen=True)
 class JobInfo:
-    """How far a job has come: ``state`` is ``"running"``, ``"done"`` or ``"failed"``."""
+    """How far a job has come: ``state`` is ``"running"``, ``"done"`` or ``"failed"``.
+
+    ``share`` of its time is over, about.
+    """
 
     id: str
     state: str
     message: str
+    share: float
     face: FaceInfo | None
     photos: list[PhotoInfo]
+    scan: ScanInfo | None
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,8 @@ from pdeface.studio.jobs import Jobs, job_routes
 from pdeface.studio.opening import open_routes
 from pdeface.studio.photo_routes import photo_routes
 from pdeface.studio.photos import PhotoDesk, Views
+from pdeface.studio.scan_routes import scan_routes
+from pdeface.studio.scans import ScanDesk
 from pdeface.studio.store import FaceStore
 
 __all__ = ["application", "serve"]
@@ -52,11 +54,12 @@ def application(
         photos: of which the face was made, if it was.
     """
     store, jobs = FaceStore(), Jobs()
-    desk = PhotoDesk(store, model, photos)
+    desk, scans = PhotoDesk(store, model, photos), ScanDesk(store, model)
     routes = [
         *face_routes(store, store.put(face)),
-        *open_routes(store, desk, jobs),
+        *open_routes(store, desk, scans, jobs),
         *photo_routes(desk, store, jobs),
+        *scan_routes(scans, store),
         *job_routes(jobs),
         Mount("/", StaticFiles(directory=pages, html=True)),
     ]
