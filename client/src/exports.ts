@@ -59,7 +59,9 @@ export function exportDialog(studio: Studio): void {
   fitting();
   go.addEventListener("click", async () => {
     const { suffix } = chosen();
-    const { face, name, weights } = studio.doc;
+    const { face, name } = studio.doc;
+    // As it is seen: without what is muted. A .pdeface file keeps all.
+    const own = (suffix: string) => suffix === ".pdeface" ? studio.doc.weights : studio.marks.heard(studio.doc.weights);
     go.disabled = true;
     go.textContent = "Writing…";
     try {
@@ -69,7 +71,7 @@ export function exportDialog(studio: Studio): void {
       } else {
         const [rows, columns] = MESHES[Number(of("mesh").value)]!;
         const blob = await studio.exported({
-          weights, name, format: suffix, rows, columns,
+          weights: own(suffix), name, format: suffix, rows, columns,
           expressions: of("expressions").checked, visemes: of("visemes").checked,
         }, face);
         const zip = blob.type === "application/zip";

@@ -39,6 +39,8 @@ interface Drag {
   readonly start: THREE.Vector3;
   readonly plane: THREE.Plane;
   readonly handles: [number, number, number][];
+  // Whether the other side makes the mirrored move.
+  readonly mirrored: boolean;
   response: Packet | null;
   by: THREE.Vector3;
 }
@@ -46,6 +48,8 @@ interface Drag {
 export class Handles {
   on = false;
   #radius = 2;
+  // A point alone, or its curve as a whole.
+  #whole = false;
   #points: THREE.Points | null = null;
   #hover: Place | null = null;
   #drag: Drag | null = null;
@@ -71,11 +75,27 @@ export class Handles {
     };
     radius.addEventListener("input", show);
     this.#box = h("div", { class: "float sculpt", hidden: true },
-      h("span", {}, "Drag a point of a curve"), h("label", { for: "falloff" }, "Falloff"), radius);
+      this.#choice(), h("label", { for: "falloff" }, "Falloff"), radius);
     stage.append(this.#box);
     show();
     studio.addEventListener("shown", () => this.#rebuild());
     for (const moment of ["live", "exact"]) studio.addEventListener(moment, () => this.#place());
+  }
+
+  #choice(): HTMLElement {
+    const ways = [
+      { whole: false, label: "Point", what: "Drag a point; its neighbours along and across curves follow" },
+      { whole: true, label: "Curve", what: "Drag a curve as a whole; the curves beside it follow" },
+    ];
+    const buttons = ways.map(({ whole, label, what }) =>
+      h("button", {
+        title: what, "aria-pressed": String(whole === this.#whole),
+        onclick: () => {
+          this.#whole = whole;
+          buttons.forEach((button, n) => button.setAttribute("aria-pressed", String(ways[n]!.whole === whole)));
+        },
+      }, label));
+    return h("span", { class: "cluster", role: "group", "aria-label": "What is dragged" }, ...buttons);
   }
 
   toggle(): void {
@@ -163,15 +183,30 @@ export class Handles {
   #shares({ curve, point }: Place): [number, number, number][] {
     const { curves } = this.studio.info;
     const found: [number, number, number][] = [];
+    if (this.#whole) return this.#across(curve);
     const reach = Math.ceil(2 * this.#radius);
     for (let c = Math.max(0, curve - reach); c <= Math.min(curves - 1, curve + reach); c++) {
       for (let p = Math.max(0, point - reach); p <= Math.min(this.#half - 1, point + reach); p++) {
-        const away = Math.hypot(c - curve, p - point) / Math.max(this.#radius, 0.01);
-        const share = away < 2 ? (1 - (away / 2) ** 2) ** 2 : 0;
+        const share = this.#share(Math.hypot(c - curve, p - point));
         if (share > 0.01) found.push([c, p, share]);
       }
     }
     return found;
+  }
+
+  // All points of a curve, and of its neighbours the less the farther they are.
+  #across(curve: number): [number, number, number][] {
+    const found: [number, number, number][] = [];
+    for (let c = 0; c < this.studio.info.curves; c++) {
+      const share = this.#share(c - curve);
+      for (let p = 0; share > 0.01 && p < this.#half; p++) found.push([c, p, share]);
+    }
+    return found;
+  }
+
+  #share(steps: number): number {
+    const away = Math.abs(steps) / Math.max(this.#radius, 0.01);
+    return away < 2 ? (1 - (away / 2) ** 2) ** 2 : 0;
   }
 
   #pick(event: PointerEvent): Place | null {
@@ -218,10 +253,14 @@ export class Handles {
     const start = this.#world(place);
     const towards = viewer.eye.getWorldDirection(new THREE.Vector3());
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(towards, start);
-    const drag: Drag = { place, start, plane, handles: this.#shares(place), response: null, by: new THREE.Vector3() };
+    // A whole curve has both sides in it already.
+    const mirrored = symmetric && !this.#whole;
+    const drag: Drag = {
+      place, start, plane, mirrored, handles: this.#shares(place), response: null, by: new THREE.Vector3(),
+    };
     this.#drag = drag;
     this.studio.holding = true;
-    api.response(doc.face, size, drag.handles, symmetric).then(
+    api.response(doc.face, size, drag.handles, mirrored).then(
       (response) => {
         drag.response = response;
         if (this.#drag === drag) this.#bend();
@@ -246,8 +285,9 @@ export class Handles {
     const hit = ray.ray.intersectPlane(drag.plane, new THREE.Vector3());
     if (!hit) return;
     drag.by = hit.sub(drag.start);
-    // A point on the middle stays there where both sides move together.
-    if (this.studio.symmetric && 2 * drag.place.point === this.#half - 1) drag.by.x = 0;
+    // What lies on the middle stays there where both sides move together.
+    const middle = !drag.mirrored || 2 * drag.place.point === this.#half - 1;
+    if (this.studio.symmetric && middle) drag.by.x = 0;
     this.#bend();
   }
 
@@ -289,7 +329,7 @@ export class Handles {
       return;
     }
     const moves = drag.handles.map(([c, p, w]) => [c, p, w * x, w * y, w * z]);
-    if (this.studio.symmetric) {
+    if (drag.mirrored) {
       for (const [c, p, w] of drag.handles) moves.push([c, this.#half - 1 - p, -w * x, w * y, w * z]);
     }
     try {

@@ -60,7 +60,7 @@ export class Motion {
     this.#bar = h("div", { class: "float player", role: "group", "aria-label": "Motion", hidden: true },
       this.#play, this.#choice, this.#scrub, this.#clock, speed, loop, film, close);
     stage.append(this.#bar);
-    studio.addEventListener("change", () => this.#restart());
+    for (const moment of ["change", "marks"]) studio.addEventListener(moment, () => this.#restart());
     this.#show();
   }
 
@@ -183,7 +183,7 @@ export class Motion {
     if (clip.times.length > MOST_FRAMES) return;
     const frames = clip.times.map((_, i) => this.#weights(i, i, 0));
     try {
-      const found = await this.studio.lacks(rest, frames);
+      const found = await this.studio.lacks(this.studio.marks.heard(rest), frames);
       if (clip === this.clip && rest === this.#rest) {
         this.#lacks = found;
         this.#pose();
@@ -233,7 +233,7 @@ export class Motion {
     names.forEach((name, n) => {
       mixed[name] = (1 - share) * weights[before]![n]! + share * weights[after]![n]!;
     });
-    return mixed;
+    return this.studio.marks.heard(mixed);
   }
 
   #extra(before: number, after: number, share: number): Float32Array | null {

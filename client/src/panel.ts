@@ -2,6 +2,7 @@
 
 import { h } from "./dom";
 import { icon } from "./icons";
+import { markButtons, showMarks } from "./mark_buttons";
 import { Slider } from "./slider";
 import type { Studio } from "./studio";
 
@@ -15,9 +16,10 @@ const OPEN_AT_FIRST = new Set(["nasal", "mandible", "identity", "eyes", "mouth"]
 
 export class Panel {
   #sliders: Slider[];
-  #groups: { element: HTMLDetailsElement; kind: string; sliders: Slider[] }[] = [];
+  #groups: { box: HTMLElement; element: HTMLDetailsElement; kind: string; sliders: Slider[] }[] = [];
   #kind: string = "shape";
   #search: HTMLInputElement;
+  #unmark: HTMLButtonElement;
   #tabs = new Map<string, HTMLButtonElement>();
   #foot = h("div", { class: "foot" });
   #empty = h("p", { class: "empty", hidden: true }, "No control is called that.");
@@ -39,9 +41,14 @@ export class Panel {
       tabs.append(tab);
     }
     const list = h("div", { class: "list" }, ...this.#buildGroups(), this.#empty);
-    const search = h("div", { class: "search" }, icon("search"), this.#search);
+    this.#unmark = h("button", {
+      class: "quiet", id: "unmark", hidden: true, title: "No control muted, solo or locked",
+      onclick: () => studio.marks.clear(),
+    }, "Unmark");
+    const search = h("div", { class: "search" }, icon("search"), this.#search, this.#unmark);
     place.append(h("div", { class: "head" }, tabs, search), list, this.#foot);
-    studio.addEventListener("live", () => this.#show());
+    for (const moment of ["live", "marks"]) studio.addEventListener(moment, () => this.#show());
+    studio.addEventListener("marks", () => (this.#unmark.hidden = !studio.marks.any));
     this.choose("shape");
   }
 
@@ -58,7 +65,8 @@ export class Panel {
   }
 
   #buildGroups(): HTMLElement[] {
-    return this.studio.schema.groups.map((group) => {
+    const { studio } = this;
+    return studio.schema.groups.map((group) => {
       const own = this.#sliders.filter(
         ({ control }) => control.group === group.name && control.kind === group.kind,
       );
@@ -68,8 +76,11 @@ export class Panel {
         h("summary", {}, group.label, h("span", { class: "count" })),
         ...own.map((slider) => slider.element),
       );
-      this.#groups.push({ element, kind: group.kind, sliders: own });
-      return element;
+      // Beside what opens and closes the group, not in it: a button in a button is none.
+      const marks = markButtons(studio.marks, group.label, () => own.map(({ control }) => control.name));
+      const box = h("div", { class: "box" }, element, marks);
+      this.#groups.push({ box, element, kind: group.kind, sliders: own });
+      return box;
     });
   }
 
@@ -145,7 +156,7 @@ export class Panel {
   #filter(): void {
     const words = this.#search.value.toLowerCase().split(/\s+/).filter(Boolean);
     let any = false;
-    for (const { element, kind, sliders } of this.#groups) {
+    for (const { box, element, kind, sliders } of this.#groups) {
       let found = 0;
       for (const slider of sliders) {
         const wanted = words.length ? slider.matches(words) : kind === this.#kind;
@@ -153,7 +164,7 @@ export class Panel {
         slider.element.hidden = !seen;
         found += Number(seen);
       }
-      element.hidden = found === 0;
+      box.hidden = found === 0;
       if (words.length && found) element.open = true;
       any ||= found > 0;
     }
@@ -163,10 +174,11 @@ export class Panel {
 
   #show(): void {
     const { weights } = this.studio.doc;
-    for (const { element, sliders } of this.#groups) {
-      if (element.hidden) continue;
+    for (const { box, element, sliders } of this.#groups) {
+      if (box.hidden) continue;
       const set = sliders.filter((s) => weights[s.control.name] && !s.isSecond).length;
       element.querySelector(".count")!.textContent = set ? String(set) : "";
+      showMarks(box, this.studio.marks, sliders.map((s) => s.control.name));
       for (const slider of sliders) if (!slider.element.hidden) slider.show();
     }
   }

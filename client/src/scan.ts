@@ -40,7 +40,7 @@ export class ScanView {
     const number = (x: number) => x.toFixed(2);
     this.#legend.replaceChildren(
       h("div", { class: "map" }, h("span", {}, "Distance to the scan"), bar,
-        h("div", { class: "marks" }, h("span", {}, "0"), h("span", {}, `${FULL / 2}`), h("span", {}, `${FULL} mm`))),
+        h("div", { class: "ticks" }, h("span", {}, "0"), h("span", {}, `${FULL / 2}`), h("span", {}, `${FULL} mm`))),
       h("div", { class: "fit" },
         h("span", { title: "Root mean square over the front of the face" }, `RMS ${number(info.rms)} mm`),
         h("span", {}, `median ${number(info.median)}`),

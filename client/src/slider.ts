@@ -1,6 +1,7 @@
 // One control: its name, a range, its number.
 
 import { clamp, h } from "./dom";
+import { markButtons, showMarks } from "./mark_buttons";
 import type { ControlInfo } from "./schema";
 import type { Studio } from "./studio";
 
@@ -22,7 +23,8 @@ export class Slider {
     });
     const title = h("label", { for: `c-${name}`, title: `${description} (double-click resets)` }, label);
     this.#title = title;
-    this.element = h("div", { class: "slider", "data-control": name }, title, this.#number, this.#range);
+    this.element = h("div", { class: "slider", "data-control": name },
+      title, markButtons(studio.marks, label, () => this.names), this.#number, this.#range);
     this.#range.addEventListener("input", () => this.#set(this.#range.valueAsNumber, false));
     this.#range.addEventListener("change", () => this.#set(this.#range.valueAsNumber, true));
     this.#number.addEventListener("change", () => this.#set(this.#number.valueAsNumber || 0, true));
@@ -33,6 +35,11 @@ export class Slider {
       });
     }
     this.show();
+  }
+
+  // The controls that move with this slider.
+  get names(): string[] {
+    return Object.keys(this.studio.paired(this.control.name, 0));
   }
 
   matches(words: readonly string[]): boolean {
@@ -51,6 +58,12 @@ export class Slider {
     const both = this.studio.symmetric && mirror !== null;
     this.#title.textContent = both ? label.replace(/ left$/, "") : label;
     const value = this.studio.doc.weights[name] ?? 0;
+    const { marks } = this.studio;
+    const locked = marks.has("lock", name);
+    this.#range.disabled = this.#number.disabled = locked;
+    const silent = value !== 0 && marks.heard({ [name]: value })[name] === undefined;
+    this.element.classList.toggle("silent", silent || marks.has("mute", name));
+    showMarks(this.element, marks, this.names);
     this.#range.value = String(value);
     if (document.activeElement !== this.#number) this.#number.value = value.toFixed(2);
     this.element.classList.toggle("set", value !== 0);

@@ -5,6 +5,7 @@ import { api, UnknownFace, type Packet, type Size, type Weights } from "./api";
 import { Timeline, withWeights, type Doc } from "./document";
 import { settled } from "./dom";
 import { Head } from "./head";
+import { Marks } from "./marks";
 import type { ExportRequest, FaceInfo, Schema } from "./schema";
 import { keepFace, keptFace } from "./storage";
 import { toast } from "./toast";
@@ -14,6 +15,7 @@ const SETTLE = 90;
 
 export class Studio extends EventTarget {
   size: Size;
+  readonly marks: Marks;
   symmetric = true;
   info!: FaceInfo;
   // A motion moves the face: the document's own expressions wait.
@@ -37,6 +39,11 @@ export class Studio extends EventTarget {
     readonly viewer: Viewer,
   ) {
     super();
+    this.marks = new Marks(schema.controls);
+    this.marks.addEventListener("change", () => {
+      this.dispatchEvent(new Event("marks"));
+      if (this.redraw()) this.#refine();
+    });
     this.size = schema.densities[2]!;
     timeline.addEventListener("live", () => this.#follow());
     timeline.addEventListener("change", () => void this.#settle());
@@ -64,11 +71,11 @@ export class Studio extends EventTarget {
 
   preview(changes: Weights): void {
     if (this.comparing) this.compare(false);
-    this.timeline.preview(withWeights(this.timeline.doc, changes));
+    this.timeline.preview(withWeights(this.timeline.doc, this.marks.free(changes)));
   }
 
   commit(label: string, changes: Weights = {}): void {
-    this.timeline.commit(label, withWeights(this.timeline.doc, changes));
+    this.timeline.commit(label, withWeights(this.timeline.doc, this.marks.free(changes)));
   }
 
   // Put a face on the stage that the server has just made or opened.
@@ -183,7 +190,7 @@ export class Studio extends EventTarget {
 
   // The weights at which the face is shown.
   get seen(): Weights {
-    return { ...this.timeline.doc.weights, ...this.#worn };
+    return this.marks.heard({ ...this.timeline.doc.weights, ...this.#worn });
   }
 
   wear(expression: Weights): void {
@@ -195,7 +202,7 @@ export class Studio extends EventTarget {
   compare(before: boolean): void {
     const first = this.timeline.steps.find(({ doc }) => doc.face === this.timeline.doc.face);
     this.comparing = before && first !== undefined;
-    if (this.comparing) this.perform(first!.doc.weights);
+    if (this.comparing) this.perform(this.marks.heard(first!.doc.weights));
     else this.redraw();
     this.dispatchEvent(new Event("shown-otherwise"));
   }

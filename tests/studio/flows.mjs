@@ -21,6 +21,7 @@ export async function flows(page, { folder, gone, expecting }) {
   await timed("slider", () => slider(page, expecting));
   await timed("contact", () => contact(page));
   await timed("controls", () => controls(page));
+  await timed("marks", () => marks(page));
   await timed("motion", () => motion(page));
   await timed("sculpt", () => sculpt(page));
   await timed("photo", () => photo(page));
@@ -202,6 +203,58 @@ async function controls(page) {
   return found;
 }
 
+// Controls muted, heard alone and locked: what is seen, what is kept.
+async function marks(page) {
+  const before = await page.evaluate(() => studio.timeline.at);
+  await page.getByRole("tab", { name: "Expression" }).click();
+  await settle(page);
+  const look = (name) => page.evaluate((as) => ((window.looks ??= {})[as] = pixels(), undefined), name);
+  const differ = (one, other) => page.evaluate(([a, b]) => changed(looks[a], looks[b]), [one, other]);
+  const shown = async (name) => {
+    await page.waitForFunction(() => JSON.stringify(studio.head.morph.anchorWeights) === JSON.stringify(studio.seen), null, { polling: 30 });
+    await page.waitForTimeout(200);
+    await look(name);
+  };
+  await shown("rest");
+  await page.evaluate(() => studio.commit("Smile", { mouthSmileLeft: 0.8, mouthSmileRight: 0.8 }));
+  await shown("smile");
+  await page.evaluate(() => studio.commit("And a jaw", { jawOpen: 0.6 }));
+  await shown("both");
+  await page.locator("#search").fill("jaw open");
+  const jaw = (mark) => page.locator(`[data-control=jawOpen] [data-mark=${mark}]`);
+  await jaw("mute").click();
+  await shown("muted");
+  const found = { kept: await page.evaluate(() => studio.doc.weights.jawOpen) };
+  found.muted = await differ("muted", "smile");
+  await jaw("mute").click();
+  await jaw("solo").click();
+  await shown("solo");
+  await page.evaluate(() => studio.marks.clear());
+  await page.evaluate(() => studio.commit("No smile", { mouthSmileLeft: 0, mouthSmileRight: 0 }));
+  await shown("jaw");
+  found.solo = await differ("solo", "jaw");
+  found.heard = await differ("jaw", "both");
+  await jaw("lock").click();
+  found.locked = await page.locator("#c-jawOpen").isDisabled();
+  await page.locator("#search").fill("");
+  await page.getByRole("button", { name: "Reset expression" }).click();
+  found.reset = await page.evaluate(() => studio.doc.weights);
+  await page.locator("#unmark").click();
+  found.unlocked = await page.locator("#c-jawOpen").isEnabled();
+  await page.getByRole("button", { name: "Mute Jaw", exact: true }).click();
+  await shown("group");
+  found.group = await differ("group", "rest");
+  await page.locator("#unmark").click();
+  await page.locator("#symmetry").click();
+  await page.evaluate(() => studio.commit("Wink", { eyeBlinkLeft: 0.5, eyeBlinkRight: 0 }));
+  await page.getByRole("button", { name: "L to R" }).click();
+  found.copied = await page.evaluate(() => studio.doc.weights.eyeBlinkRight);
+  await page.locator("#symmetry").click();
+  await page.evaluate((at) => studio.timeline.go(at), before);
+  await settle(page);
+  return found;
+}
+
 async function motion(page) {
   await page.evaluate(() => (window.before = pixels()));
   await page.getByRole("button", { name: "Motion" }).click();
@@ -249,8 +302,39 @@ async function sculpt(page) {
   await page.waitForFunction((old) => studio.doc.face === old && exact(), face, { polling: 30 });
   await page.waitForTimeout(600);
   found.undone = await page.evaluate(() => changed(before, pixels()));
+  found.whole = await wholeCurve(page);
   return found;
 }
+
+// A curve dragged as a whole: it moves alike everywhere, its neighbours less.
+async function wholeCurve(page) {
+  await page.keyboard.press("d");
+  await page.getByRole("button", { name: "Curve", exact: true }).click();
+  const curves = () => page.evaluate(() => {
+    const { morph } = studio.head;
+    return [...morph.positions.subarray(3 * morph.start(morph.counts.length - 1))];
+  });
+  const [face, before] = [await page.evaluate(() => studio.doc.face), await curves()];
+  const { x, y } = await page.evaluate(() => handles.screen({ curve: 20, point: 11 }));
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y + 18, { steps: 3 });
+  await page.waitForFunction(() => changed(before, pixels()) > 2000, null, { polling: 30 });
+  const live = await skinOf(page);
+  await page.mouse.up();
+  await page.waitForFunction((old) => studio.doc.face !== old, face, { polling: 30 });
+  await settle(page);
+  await page.waitForTimeout(300);
+  const found = { before, after: await curves(), live, exact: await skinOf(page) };
+  await page.getByRole("button", { name: "Point", exact: true }).click();
+  await page.keyboard.press("d");
+  await page.keyboard.press("Control+z");
+  await page.waitForFunction((old) => studio.doc.face === old && exact(), face, { polling: 30 });
+  await page.waitForTimeout(300);
+  return found;
+}
+
+const skinOf = (page) => page.evaluate(() => skin());
 
 async function photo(page) {
   await page.evaluate(() => (window.before = pixels()));

@@ -177,6 +177,28 @@ def test_a_dragged_curve_is_the_library_s_surface(report) -> None:
     assert sculpt["label"] == "Curve 21"
 
 
+def test_a_curve_is_dragged_as_a_whole(report) -> None:
+    whole = report["sculpt"]["whole"]
+    np.testing.assert_allclose(whole["live"], whole["exact"], atol=ALIKE)
+    moved = np.subtract(whole["after"], whole["before"]).reshape(28, 46, 3)[:, :23]
+    length = np.linalg.norm(moved, axis=2)
+    assert length[20].min() > 1e-3
+    np.testing.assert_allclose(length, length[:, :1].repeat(23, axis=1), atol=2e-6)
+    assert (np.diff(length[17:21, 0]) > 0).all()
+    assert (np.diff(length[20:24, 0]) < 0).all()
+    assert length[:16].max() == 0
+
+
+def test_controls_are_muted_heard_alone_and_locked(report) -> None:
+    marks = report["marks"]
+    assert marks["kept"] == 0.6
+    assert (marks["muted"], marks["solo"], marks["group"]) == (0, 0, 0)
+    assert marks["heard"] > SEEN
+    assert marks["locked"] and marks["unlocked"]
+    assert marks["reset"] == {"jawOpen": 0.6}
+    assert marks["copied"] == 0.5
+
+
 def test_points_of_a_photo_make_a_texture(report) -> None:
     photo = report["photo"]
     assert photo["points"] >= 25
