@@ -91,6 +91,10 @@ export const api = {
   scan: (id: string) => packet(ask(`/api/scans/${encodeURIComponent(id)}`)),
   distances: (id: string, faceId: string, size: Size, weights: Weights) =>
     packet(post(`/api/scans/${encodeURIComponent(id)}/distances`, { ...size, face: faceId, weights })),
+  beginFilm: (width: number, height: number, rate: number) =>
+    json<{ id: string }>(post("/api/films", { width, height, rate })),
+  addFrame: (id: string, picture: Blob) => post(`/api/films/${encodeURIComponent(id)}`, picture),
+  endFilm: async (id: string) => (await post(`/api/films/${encodeURIComponent(id)}/end`, {})).blob(),
   clip: (name: string) => json<ClipInfo>(ask(`/api/clips/${encodeURIComponent(name)}`)),
   firstPhotos: () => json<PhotosInfo>(ask("/api/photos/first")),
   addPhoto: (file: Blob) => json<{ id: string }>(post("/api/photos", file)),

@@ -2,6 +2,8 @@
 
 import { dialog, download, fileName } from "./dialogs";
 import { h } from "./dom";
+import { clipFilm, turntable } from "./film";
+import type { Motion } from "./motion";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
@@ -11,6 +13,7 @@ interface Format {
   readonly hint: string;
   readonly mesh?: boolean;
   readonly targets?: boolean;
+  readonly film?: boolean;
 }
 
 const FORMATS: readonly Format[] = [
@@ -22,12 +25,15 @@ const FORMATS: readonly Format[] = [
   { suffix: ".pdeface", label: "pdeface", hint: "The curves themselves: 4 kB and a texture" },
   { suffix: ".png", label: "Texture", hint: "The texture, PNG" },
   { suffix: "still", label: "Picture", hint: "What the stage shows, PNG without background" },
+  { suffix: "turn", label: "Turntable", hint: "From side to side and back, MP4", film: true },
+  { suffix: "clip", label: "Clip", hint: "The motion that is open, MP4", film: true },
 ];
 
 const MESHES = [[28, 41], [55, 81], [109, 161], [217, 321], [541, 321]] as const;
+const FILMS = [[480, 600], [720, 900], [1080, 1080], [1920, 1080], [1080, 1920]] as const;
 const STILLS = [[1600, 1200], [2400, 1800], [3840, 2160], [1080, 1350]] as const;
 
-export function exportDialog(studio: Studio): void {
+export function exportDialog(studio: Studio, motion: Motion): void {
   const pick = (name: string, format: Format, index: number) => {
     const input = h("input", { type: "radio", name, value: format.suffix, checked: index === 0 });
     return h("label", { class: "card" }, input, h("b", {}, format.label), h("span", {}, format.hint));
@@ -40,16 +46,20 @@ export function exportDialog(studio: Studio): void {
     h("label", { class: "check" }, h("input", { type: "checkbox", id: name, checked: on }), label);
   const meshes = h("label", { class: "row" }, h("span", {}, "Mesh"), size("mesh", MESHES, 1));
   const stills = h("label", { class: "row" }, h("span", {}, "Pixels"), size("pixels", STILLS, 0));
+  const films = h("label", { class: "row" }, h("span", {}, "Pixels"), size("film-pixels", FILMS, 1));
   const targets = h("div", { class: "checks" },
     check("expressions", "Expressions as morph targets", true),
     check("visemes", "Visemes of speech as well", false));
   const go = h("button", { class: "primary", id: "export" }, "Export");
   const form = h("div", { class: "cards", role: "radiogroup", "aria-label": "Format" }, ...FORMATS.map((f, i) => pick("format", f, i)));
-  const box = dialog("Export", "exports", form, meshes, stills, targets, h("footer", {}, go));
+  const box = dialog("Export", "exports", form, meshes, stills, films, targets, h("footer", {}, go));
   const chosen = () =>
     FORMATS.find(({ suffix }) => suffix === form.querySelector<HTMLInputElement>(":checked")!.value)!;
   const fitting = () => {
-    const { mesh, targets: moving, suffix } = chosen();
+    const { mesh, targets: moving, suffix, film } = chosen();
+    films.hidden = !film;
+    go.disabled = suffix === "clip" && !motion.clip;
+    go.title = go.disabled ? "Open a motion first" : "";
     meshes.hidden = !mesh;
     stills.hidden = suffix !== "still";
     targets.hidden = !moving;
@@ -65,7 +75,16 @@ export function exportDialog(studio: Studio): void {
     go.disabled = true;
     go.textContent = "Writing…";
     try {
-      if (suffix === "still") {
+      if (suffix === "turn" || suffix === "clip") {
+        const pixels = FILMS[Number(of("film-pixels").value)]!;
+        const tell = (share: number) => {
+          if (!box.open) throw new Error("the film was given up; nothing was written");
+          go.textContent = `Filming… ${Math.round(100 * share)} %`;
+        };
+        const { viewer } = studio;
+        const film = suffix === "turn" ? await turntable(viewer, pixels, tell) : await clipFilm(motion, viewer, pixels, tell);
+        download(film, fileName(`${name}-${suffix === "turn" ? "turntable" : motion.clip!.name}`, ".mp4"));
+      } else if (suffix === "still") {
         const [width, height] = STILLS[Number(of("pixels").value)]!;
         download(await studio.viewer.still(width, height), fileName(name, ".png"));
       } else {

@@ -120,12 +120,12 @@ async function start(): Promise<void> {
     { keys: " ", what: "Play or pause motion", act: () => (motion.open ? motion.toggle() : show()) },
     { keys: "Ctrl+o", what: "Open", act: () => files.choose() },
     { keys: "Ctrl+s", what: "Save", act: () => void save() },
-    { keys: "Ctrl+e", what: "Export", act: () => exportDialog(studio) },
+    { keys: "Ctrl+e", what: "Export", act: () => exportDialog(studio, motion) },
     { keys: "l", what: "Light or dark", act: switchTheme },
     { keys: "?", what: "This help", act: () => help(shortcuts) },
   ];
   new Bar(studio, document.getElementById("bar")!, {
-    open: () => files.choose(), save: () => void save(), exports: () => exportDialog(studio),
+    open: () => files.choose(), save: () => void save(), exports: () => exportDialog(studio, motion),
     photo: () => void showPhoto(), motion: () => show(), sculpt: () => handles.toggle(),
     theme: switchTheme, help: () => help(shortcuts),
   });

@@ -174,18 +174,38 @@ export class Viewer {
 
   // The picture as a PNG, without the page's background.
   still(width: number, height: number): Promise<Blob> {
+    return this.posing(width, height, (snap) => snap("image/png"));
+  }
+
+  // Pictures of this size, taken one after the other: `snap` draws and keeps what is seen.
+  async posing<T>(
+    width: number, height: number, work: (snap: (type: string) => Promise<Blob>) => Promise<T>,
+  ): Promise<T> {
     const ratio = this.renderer.getPixelRatio();
     this.renderer.setPixelRatio(1);
     this.#setSize(width, height);
-    this.drawNow();
-    return new Promise((resolve, reject) => {
+    const snap = (type: string) => new Promise<Blob>((resolve, reject) => {
+      this.drawNow();
       this.canvas.toBlob((blob) => {
-        this.renderer.setPixelRatio(ratio);
-        this.#resize();
         if (blob) resolve(blob);
         else reject(new Error("the browser could not make a picture; choose a smaller size"));
-      }, "image/png");
+      }, type, 0.95);
     });
+    try {
+      return await work(snap);
+    } finally {
+      this.renderer.setPixelRatio(ratio);
+      this.#resize();
+    }
+  }
+
+  get azimuth(): number {
+    return this.#spherical().theta;
+  }
+
+  set azimuth(azimuth: number) {
+    const at = this.#spherical();
+    this.#place(azimuth, Math.PI / 2 - at.phi, at.radius, this.controls.target);
   }
 
   #measure(): void {

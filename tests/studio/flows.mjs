@@ -561,6 +561,13 @@ async function shown(page, folder) {
   await page.waitForFunction(() => motion.clip?.name === "blink" && motion.time > 0, null, { polling: 20 });
   const [film] = await Promise.all([page.waitForEvent("download"), page.locator("#film").click()]);
   await film.saveAs(join(folder, "blink.webm"));
+  await page.getByRole("button", { name: "Export", exact: true }).click();
+  await page.locator('input[value="clip"]').check({ force: true });
+  await page.locator("#film-pixels").selectOption("0");
+  const [clip] = await Promise.all([page.waitForEvent("download"), page.locator("dialog #export").click()]);
+  await clip.saveAs(join(folder, "clip.mp4"));
+  found.clip = clip.suggestedFilename();
+  found.size = await page.evaluate(() => [viewer.canvas.width, viewer.canvas.clientWidth]);
   await page.getByRole("button", { name: "Close motion" }).click();
   await page.keyboard.press("Control+z");
   await settle(page);

@@ -256,6 +256,24 @@ def test_a_scan_is_fitted_and_measured(report) -> None:
     assert (scan["after"], scan["offered"]) == ("textured", False)
 
 
+def test_a_clip_is_filmed_frame_by_frame(report, folder: Path, ffmpeg: str) -> None:
+    assert report["shown"]["clip"] == "Ada-blink.mp4"
+    assert report["shown"]["size"][0] == report["shown"]["size"][1]
+    frames = decoded(ffmpeg, folder / "clip.mp4", (480, 600))
+    assert len(frames) == 30
+    skin = frames[0] != frames[0][0, 0]
+    assert 0.2 < skin.mean() < 0.8
+    # The lids close and open: the eyes differ in the middle of the film and are back at its end.
+    away = [np.abs(frame.astype(int) - frames[0]).mean() for frame in frames]
+    assert max(away[3:20]) > 4 * max(away[1], away[-1])
+
+
+def decoded(ffmpeg: str, path: Path, size: tuple[int, int]) -> np.ndarray:
+    command = [ffmpeg, "-v", "error", "-i", str(path), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    raw = subprocess.run(command, capture_output=True, check=True).stdout
+    return np.frombuffer(raw, np.uint8).reshape(-1, size[1], size[0], 3)
+
+
 def test_saved_and_exported_files_are_what_was_shown(report, folder: Path) -> None:
     files = report["files"]
     assert (files["saved"], files["glb"], files["still"]) == ("Ada.pdeface", "Ada.glb", "Ada.png")

@@ -19,6 +19,7 @@ from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.studio.assets import folder
 from pdeface.studio.faces import face_routes
+from pdeface.studio.films import Cutter, film_routes
 from pdeface.studio.guard import Guard, is_loopback
 from pdeface.studio.jobs import Jobs, job_routes
 from pdeface.studio.opening import open_routes
@@ -60,6 +61,7 @@ def application(
         *open_routes(store, desk, scans, jobs),
         *photo_routes(desk, store, jobs),
         *scan_routes(scans, store),
+        *film_routes(Cutter()),
         *job_routes(jobs),
         Mount("/", StaticFiles(directory=pages, html=True)),
     ]
