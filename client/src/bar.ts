@@ -10,6 +10,7 @@ export interface Commands {
   readonly exports: () => void;
   readonly photo: () => void;
   readonly motion: () => void;
+  readonly webcam: () => void;
   readonly sculpt: () => void;
   readonly theme: () => void;
   readonly help: () => void;
@@ -45,6 +46,7 @@ export class Bar {
         tool("open", "Open a photo, a scan, a face or a motion (Ctrl+O)", commands.open, "Open"),
         tool("photo", "Photo and its points", commands.photo, "Photo"),
         tool("motion", "Motion (Space)", commands.motion, "Motion"),
+        tool("camera", "Webcam: the face does what you do (W)", commands.webcam, "Webcam"),
         tool("curves", "Drag points of the boundary curves (D)", commands.sculpt, "Sculpt"),
         tool("save", "Save as .pdeface (Ctrl+S)", commands.save, "Save"),
         tool("export", "Export (Ctrl+E)", commands.exports, "Export")),

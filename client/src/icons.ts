@@ -19,6 +19,7 @@ const PATHS: Record<string, string> = {
   dice: "M4 4h12v12H4zM7.3 7.3v.1M12.7 7.3v.1M10 10v.1M7.3 12.7v.1M12.7 12.7v.1",
   photo: "M3 4.5h14v11H3zM3 13l4-3.5 3 2.5 3.5-3L17 12.5M13 7.5v.1",
   motion: "M3 10h2l2-5 3.5 10L13 7l1.5 3H17",
+  camera: "M3 6h9.5v8.5H3zM12.5 9 17 6.5V14l-4.5-2.5",
   projection: "M4 6.5 10 3l6 3.5v7L10 17l-6-3.5zM4 6.5l6 3.5 6-3.5M10 10v7",
   record: "M10 15a5 5 0 1 0 0-10 5 5 0 0 0 0 10z",
   curves: "M3 6c4-2.5 10-2.5 14 0M3 10c4-2.5 10-2.5 14 0M3 14c4-2.5 10-2.5 14 0",

@@ -24,6 +24,7 @@ import { setTheme, theme } from "./theme";
 import { toast } from "./toast";
 import { Tools } from "./tools";
 import { Viewer } from "./viewer";
+import { Webcam } from "./webcam";
 
 async function start(): Promise<void> {
   setTheme(theme());
@@ -52,10 +53,12 @@ async function start(): Promise<void> {
   const handles = new Handles(studio, stage);
   const scan = new ScanView(studio, tools, stage);
   const overlay = new Overlay(studio, stage);
+  const webcam = new Webcam(studio, stage, (clip) => show(clip));
   let photos: readonly PhotoInfo[] | null = null;
   let desk: PhotoDesk | null = null;
   const show = (clip?: ClipInfo) => {
     overlay.leave();
+    webcam.close();
     void motion.show(clip);
   };
   const files = new Files(studio, jobs, stage, show, (found) => {
@@ -67,6 +70,12 @@ async function start(): Promise<void> {
     scan.show(found);
   });
   // Of these photos the face was made; else there is the bundled portrait to try.
+  const film = () => {
+    overlay.leave();
+    if (motion.open) motion.close();
+    if (webcam.open) webcam.close();
+    else void webcam.show();
+  };
   const withPhotos = async (act: (all: readonly PhotoInfo[]) => void) => {
     try {
       photos ??= (await api.firstPhotos()).photos;
@@ -79,6 +88,7 @@ async function start(): Promise<void> {
     if (overlay.open) overlay.leave();
     else {
       if (motion.open) motion.close();
+      webcam.close();
       overlay.show(all, photo ?? all[0]!);
     }
   });
@@ -117,6 +127,7 @@ async function start(): Promise<void> {
     { keys: "Ctrl+z", what: "Undo", act: () => timeline.undo() },
     { keys: "Ctrl+Shift+z Ctrl+y", what: "Redo", act: () => timeline.redo() },
     { keys: "d", what: "Drag the curves", act: () => handles.toggle() },
+    { keys: "w", what: "Webcam on or off", act: film },
     { keys: " ", what: "Play or pause motion", act: () => (motion.open ? motion.toggle() : show()) },
     { keys: "Ctrl+o", what: "Open", act: () => files.choose() },
     { keys: "Ctrl+s", what: "Save", act: () => void save() },
@@ -126,7 +137,7 @@ async function start(): Promise<void> {
   ];
   new Bar(studio, document.getElementById("bar")!, {
     open: () => files.choose(), save: () => void save(), exports: () => exportDialog(studio, motion),
-    photo: () => void showPhoto(), motion: () => show(), sculpt: () => handles.toggle(),
+    photo: () => void showPhoto(), motion: () => show(), webcam: film, sculpt: () => handles.toggle(),
     theme: switchTheme, help: () => help(shortcuts),
   });
   listen(shortcuts);
@@ -135,7 +146,7 @@ async function start(): Promise<void> {
   studio.addEventListener("shown", dress);
   if (own) toast("Your work was recovered.");
   else if (left && worthIt(left)) offer(left, timeline);
-  Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, scan, api });
+  Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, scan, webcam, api });
   await studio.load();
   welcome(() => help(shortcuts));
   await studio.keepCurrent();

@@ -56,9 +56,13 @@ export class Motion {
       class: "icon-only", id: "film", title: "Record as a film (WebM)", "aria-label": "Record",
       onclick: () => void this.record(),
     }, icon("record"));
+    const keep = h("button", {
+      class: "icon-only", id: "keep-clip", title: "Save the motion as a file (JSON)", "aria-label": "Save the motion",
+      onclick: () => void this.#save(),
+    }, icon("save"));
     const close = h("button", { class: "icon-only", title: "Stop and close", "aria-label": "Close motion", onclick: () => this.close() }, icon("close"));
     this.#bar = h("div", { class: "float player", role: "group", "aria-label": "Motion", hidden: true },
-      this.#play, this.#choice, this.#scrub, this.#clock, speed, loop, film, close);
+      this.#play, this.#choice, this.#scrub, this.#clock, speed, loop, film, keep, close);
     stage.append(this.#bar);
     for (const moment of ["change", "marks"]) studio.addEventListener(moment, () => this.#restart());
     this.#show();
@@ -136,6 +140,17 @@ export class Motion {
     this.studio.head?.pivot.rotation.set(0, 0, 0);
     this.studio.head?.morph.setExtra(null);
     this.studio.redraw();
+  }
+
+  // The clip as a file that pdeface animate and this page read.
+  async #save(): Promise<void> {
+    const { clip } = this;
+    if (!clip) return;
+    try {
+      download(await api.clipFile(clip), fileName(clip.name, ".json"));
+    } catch (error) {
+      toast(error);
+    }
   }
 
   // Plays once from the beginning and keeps what the stage shows.

@@ -1,6 +1,7 @@
 // Uses the studio in a real browser and prints, as JSON, what came of it.
 //   node browser.mjs BROWSER PYTHON FACE FOLDER: FACE is the .pdeface file to begin with, FOLDER is
-//   where downloads go. playwright-core is taken from tests/browser.
+//   where downloads go and camera.y4m is what the camera sees. playwright-core is taken from
+//   tests/browser.
 import { spawn } from "node:child_process";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -15,6 +16,9 @@ const FLAGS = [
   "--disable-background-networking",
   "--disable-component-update",
   "--disable-sync",
+  "--use-fake-device-for-media-stream",
+  "--use-fake-ui-for-media-stream",
+  `--use-file-for-fake-video-capture=${join(folder, "camera.y4m")}`,
 ];
 
 let server = null;

@@ -28,7 +28,10 @@ export async function flows(page, { folder, gone, expecting }) {
   await timed("behind", () => behind(page));
   await timed("barriers", () => barriers(page));
   await timed("shown", () => shown(page, folder));
-  if (process.env.PDEFACE_MODEL) await timed("scan", () => scanned(page, folder));
+  if (process.env.PDEFACE_MODEL) {
+    await timed("camera", () => camera(page, folder));
+    await timed("scan", () => scanned(page, folder));
+  }
   await timed("files", () => files(page, folder, expecting));
   await timed("alone", () => alone(page, gone));
   expecting(false);
@@ -424,6 +427,41 @@ async function behind(page) {
   found.back = await page.evaluate(() => changed(before, pixels()));
   found.hidden = await page.locator(".behind").isHidden();
   found.weights = await page.evaluate(() => studio.doc.weights);
+  return found;
+}
+
+// The webcam sees the portrait, upright and turned by turns: the face smiles, turns and is kept.
+async function camera(page, folder) {
+  await page.evaluate(() => (window.before = pixels()));
+  await page.keyboard.press("w");
+  await page.waitForFunction(() => webcam.latest, null, { polling: 50 });
+  await page.locator("#smoothing").fill("0");
+  await page.locator("#take").click();
+  const rolls = () => page.evaluate(() => [webcam.latest.head[2], studio.head.pivot.rotation.z]);
+  const seen = [];
+  const began = Date.now();
+  const apart = () => Math.max(...seen.map(([roll]) => roll)) - Math.min(...seen.map(([roll]) => roll));
+  while (Date.now() - began < 30_000 && !(seen.length > 3 && apart() > 0.15)) {
+    const frames = await page.evaluate(() => webcam.frames);
+    await page.waitForFunction((old) => webcam.frames > old, frames, { polling: 20 });
+    seen.push(await rolls());
+  }
+  const found = { seen, smile: await page.evaluate(() => webcam.latest.weights.mouthSmileLeft) };
+  found.moved = await page.evaluate(() => changed(before, pixels()));
+  await page.locator("#neutral").click();
+  await page.waitForFunction(() => webcam.latest.weights.mouthSmileLeft < 0.1, null, { polling: 50 });
+  found.state = await page.locator(".state").textContent();
+  await page.locator("#take").click();
+  await page.waitForFunction(() => motion.clip?.name === "take 1", null, { polling: 50 });
+  found.clip = await page.evaluate(() => motion.clip);
+  const [file] = await Promise.all([page.waitForEvent("download"), page.locator("#keep-clip").click()]);
+  await file.saveAs(join(folder, "take.json"));
+  found.file = file.suggestedFilename();
+  await page.getByRole("button", { name: "Close motion" }).click();
+  await settle(page);
+  await page.waitForTimeout(200);
+  found.back = await page.evaluate(() => changed(before, pixels()));
+  found.ended = await page.evaluate(() => document.querySelector("video").srcObject === null);
   return found;
 }
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import pdeface
-from pdeface.motion import clip, write
+from pdeface.motion import clip, read, write
 from pdeface.studio import requests
 
 
@@ -113,3 +113,31 @@ def test_a_built_in_clip_is_told(client) -> None:
     info = client.get("/api/clips/talk").json()
     assert info["times"][-1] > 3
     assert client.get("/api/clips/sing").status_code == 422
+
+
+def test_a_clip_is_kept_as_a_track(client, tmp_path) -> None:
+    info = client.get("/api/clips/blink").json()
+    path = tmp_path / "blink.json"
+    path.write_bytes(client.post("/api/clips", json=info).content)
+    track = read(path)
+    assert np.allclose(track.weights_of(info["names"]), info["weights"])
+    assert np.allclose(track.times, info["times"])
+
+
+@pytest.mark.parametrize(
+    "value",
+    [{}, {"times": "long"}, {"times": [0, 1], "names": ["x"], "weights": [[1]], "head": 0}],
+)
+def test_what_is_no_clip_is_not_kept(client, value) -> None:
+    answer = client.post("/api/clips", json=value)
+    assert answer.status_code == 422
+    assert "\n" not in answer.json()["error"]
+
+
+def test_the_tracker_s_model_is_served(client, model, told_model) -> None:
+    assert client.get("/api/tracker/model").content == model.read_bytes()
+
+
+def test_a_model_that_is_not_there_is_told_of(client, monkeypatch, tmp_path) -> None:
+    monkeypatch.setenv("PDEFACE_MODEL", str(tmp_path / "none.task"))
+    assert "found no file" in client.get("/api/tracker/model").json()["error"]

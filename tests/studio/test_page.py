@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -15,11 +16,17 @@ import pytest
 from PIL import Image
 
 import pdeface
+from pdeface.controls import CONTROLS
+from pdeface.motion import read
 from pdeface.photo.camera import PhotoCamera
 from pdeface.studio import assets
+from pdeface.texture import portrait
 
 HERE = Path(__file__).parent
 PROGRAMS = ("chromium", "chromium-browser", "google-chrome")
+TILT = 0.2
+"""Radians by which the camera's person tips her head."""
+
 MODEL = Path("models", "face_landmarker.task")
 SEEN = 200
 """Pixels, of some 300,000."""
@@ -67,6 +74,7 @@ def report(folder: Path, person: pdeface.Face) -> dict[str, Any]:
     source = [str(folder / "ada.pdeface"), str(folder)]
     command = ["node", str(HERE / "browser.mjs"), browser, sys.executable, *source]
     pdeface.export(person, folder / "scan.ply", mesh=(109, 161))
+    write_camera(folder / "camera.y4m")
     model = Path(os.environ.get("PDEFACE_SHARED") or HERE.parents[2] / "shared") / MODEL
     told = {"PDEFACE_MODEL": str(model)} if model.is_file() else {}
     answer = subprocess.run(
@@ -240,6 +248,41 @@ def test_before_and_after_and_a_film(report, folder: Path) -> None:
     film = (folder / "blink.webm").read_bytes()
     assert film.startswith(b"\x1a\x45\xdf\xa3")
     assert len(film) > 2000
+
+
+@pytest.mark.usefixtures("model")
+def test_the_webcam_moves_the_face_and_is_kept_as_a_clip(report, folder: Path) -> None:
+    camera = report["camera"]
+    assert camera["smile"] > 0.4
+    assert camera["moved"] > SEEN
+    rolls, mirrored = np.array(camera["seen"]).T
+    assert np.ptp(rolls) == pytest.approx(TILT, abs=0.05)
+    np.testing.assert_allclose(mirrored, -rolls, atol=1e-6)
+    assert (camera["back"], camera["ended"]) == (0, True)
+    track = read(folder / "take.json")
+    assert camera["file"] == "take-1.json"
+    assert list(track.names) == camera["clip"]["names"]
+    assert set(track.names) <= {n for n, c in CONTROLS.items() if c.kind == "expression"}
+    smile = track.weights_of(["mouthSmileLeft"])
+    assert smile.max() > 0.4
+    assert smile[-1] < 0.1  # after this face was said to be the neutral one
+    assert np.ptp(track.head[:, 2]) == pytest.approx(TILT, abs=0.05)
+
+
+def write_camera(path: Path) -> None:
+    """What the camera sees: two seconds of the portrait upright, two of it tilted, and again."""
+    photo = Image.fromarray(portrait()[0]).resize((480, 480))
+    pictures = []
+    for angle in (0.0, math.degrees(TILT)):
+        picture = Image.new("RGB", (640, 480), (120, 120, 120))
+        picture.paste(photo.rotate(angle, Image.Resampling.BICUBIC, fillcolor=(120,) * 3), (80, 0))
+        light, blue, red = picture.convert("YCbCr").split()
+        halves = [plane.resize((320, 240)).tobytes() for plane in (blue, red)]
+        pictures.append(b"FRAME\n" + light.tobytes() + b"".join(halves))
+    with path.open("wb") as file:
+        file.write(b"YUV4MPEG2 W640 H480 F10:1 Ip A1:1 C420jpeg\n")
+        for picture in pictures:
+            file.writelines([picture] * 20)
 
 
 @pytest.mark.usefixtures("model")

@@ -23,7 +23,8 @@ COOKIE = "pdeface_token"
 CONTENT_SECURITY_POLICY = "; ".join(
     (
         "default-src 'none'",
-        "script-src 'self'",
+        # The tracker of the webcam is WebAssembly, from here as all else.
+        "script-src 'self' 'wasm-unsafe-eval'",
         "style-src 'self'",
         "img-src 'self' data: blob:",
         "connect-src 'self' blob:",

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
+import numpy as np
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import Response
@@ -13,10 +16,10 @@ from starlette.routing import BaseRoute, Route
 
 from pdeface.errors import InputError
 from pdeface.face import Face, load
-from pdeface.motion import Track, clip, read
+from pdeface.motion import Track, clip, read, write
 from pdeface.studio.jobs import Jobs
 from pdeface.studio.photos import PhotoDesk
-from pdeface.studio.requests import answered, as_json, body
+from pdeface.studio.requests import answered, as_json, body, json_body
 from pdeface.studio.scans import ScanDesk, scan_suffix
 from pdeface.studio.schema import ClipInfo, Opened
 from pdeface.studio.store import FaceStore
@@ -91,6 +94,29 @@ def clip_info(name: str, track: Track) -> ClipInfo:
     )
 
 
+def motion_file(value: Mapping[str, Any]) -> bytes:
+    """A clip as the page has it, as the JSON of a track.
+
+    Raises:
+        InputError: no clip.
+    """
+    try:
+        track = Track(
+            times=np.array(value["times"], np.float64),
+            names=tuple(value["names"]),
+            weights=np.array(value["weights"], np.float64),
+            head=np.array(value["head"], np.float64),
+        )
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"expected a clip, got something else ({error}); reload the page"
+        ) from error
+    with TemporaryDirectory(prefix="pdeface-") as folder:
+        path = Path(folder) / "motion.json"
+        write(track, path)
+        return path.read_bytes()
+
+
 class OpenRoutes:
     """The endpoints that take files, and clips by name."""
 
@@ -112,6 +138,11 @@ class OpenRoutes:
         job = self._jobs.start("reading the photo", lambda tell: self._photos.opened(data, tell))
         return as_json(Opened(None, None, job))
 
+    async def keep(self, request: Request) -> Response:
+        """A clip of the page's as a file."""
+        data = await run_in_threadpool(motion_file, await json_body(request))
+        return Response(data, media_type="application/json")
+
     async def clip(self, request: Request) -> Response:
         """A built-in clip."""
         name = request.path_params["name"]
@@ -125,5 +156,6 @@ def open_routes(
     routes = OpenRoutes(store, photos, scans, jobs)
     return [
         Route("/api/open", answered(routes.open), methods=["POST"]),
+        Route("/api/clips", answered(routes.keep), methods=["POST"]),
         Route("/api/clips/{name}", answered(routes.clip)),
     ]

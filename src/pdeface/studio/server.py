@@ -28,6 +28,7 @@ from pdeface.studio.photos import PhotoDesk, Views
 from pdeface.studio.scan_routes import scan_routes
 from pdeface.studio.scans import ScanDesk
 from pdeface.studio.store import FaceStore
+from pdeface.studio.tracker import tracker_routes
 
 __all__ = ["application", "serve"]
 
@@ -62,6 +63,7 @@ def application(
         *photo_routes(desk, store, jobs),
         *scan_routes(scans, store),
         *film_routes(Cutter()),
+        *tracker_routes(model),
         *job_routes(jobs),
         Mount("/", StaticFiles(directory=pages, html=True)),
     ]
