@@ -1,6 +1,7 @@
 // What is asked of the server. Every error is an Error whose message is a line for the page.
 
-import type { ArrayInfo, ClipInfo, ExportRequest, FaceInfo, Opened, PhotoInfo, PhotosInfo, Schema } from "./schema";
+import { unpacked, type Packet } from "./packet";
+import type { ClipInfo, ExportRequest, FaceInfo, Opened, PhotoInfo, PhotosInfo, Schema } from "./schema";
 
 export type Weights = Readonly<Record<string, number>>;
 // Feature points by name, pixels of a photo.
@@ -13,10 +14,7 @@ export interface Size {
 }
 // A curve, a point on its front half, and the share of a move that it makes.
 export type Handle = readonly [number, number, number];
-export interface Packet {
-  readonly header: Record<string, unknown>;
-  readonly arrays: Map<string, Float32Array | Int32Array>;
-}
+export type { Packet };
 
 // The server does not know the face (any more): it was started anew, and wants it again.
 export class UnknownFace extends Error {}
@@ -47,18 +45,8 @@ async function json<T>(answer: Promise<Response>): Promise<T> {
   return (await (await answer).json()) as T;
 }
 
-// Arrays behind a JSON header, all little-endian, as every browser's machine is.
 async function packet(answer: Promise<Response>): Promise<Packet> {
-  const bytes = await (await answer).arrayBuffer();
-  const length = new DataView(bytes).getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
-  const arrays = new Map<string, Float32Array | Int32Array>();
-  for (const info of header.arrays as ArrayInfo[]) {
-    const count = info.shape.reduce((product, size) => product * size, 1);
-    const Kind = info.type === "int32" ? Int32Array : Float32Array;
-    arrays.set(info.name, new Kind(bytes, 4 + length + info.offset, count));
-  }
-  return { header, arrays };
+  return unpacked(await (await answer).arrayBuffer());
 }
 
 const face = (id: string) => `/api/faces/${encodeURIComponent(id)}`;

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pdeface.pde import PDESurface
     from pdeface.performer import Performer
     from pdeface.pictures import render
+    from pdeface.studio.notebook import widget
     from pdeface.uvmesh import UVMesh
 
 __all__ = [
@@ -44,6 +45,7 @@ __all__ = [
     "neutral",
     "random",
     "render",
+    "widget",
 ]
 
 __version__ = "0.1.0"
@@ -61,6 +63,7 @@ _ROOMS = {
     "neutral": "pdeface.face",
     "random": "pdeface.face",
     "render": "pdeface.pictures",
+    "widget": "pdeface.studio.notebook",
 }
 
 

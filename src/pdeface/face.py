@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,9 @@ from pdeface.pde.surface import check_parameters
 from pdeface.sampler import sampler
 from pdeface.template import neutral_curves
 from pdeface.uvmesh import FaceMesh, UVMesh
+
+if TYPE_CHECKING:
+    from pdeface.studio.face_widget import FaceWidget
 
 __all__ = ["Face", "Openings", "load", "neutral", "random"]
 
@@ -276,6 +280,14 @@ class Face:
                 "use pdeface.export for other formats"
             )
         atomic_write(path, pack(self._record()) if compact is None else self.compact(compact).data)
+
+    def widget(self, *, mesh: tuple[int, int] = (55, 81), height: int = 480) -> FaceWidget:
+        """The face in a Jupyter notebook, with sliders; as :func:`pdeface.widget`."""
+        # The one way up, where people look for it: by name, so that this room imports none above.
+        shown: FaceWidget = import_module("pdeface.studio.notebook").widget(
+            self, mesh=mesh, height=height
+        )
+        return shown
 
     def compact(self, error: float) -> Compact:
         """The face in few bytes: its curves, predicted from the neutral face, to within an error.
