@@ -54,12 +54,13 @@ def expressed(
         return Displacement(np.zeros(rest.shape), np.zeros(rest.shape))
     moved = measured.expressions(_sources(_lidded(weights)), size)
     closed = {name: _closed(rest, weights, name, a, modes) for name in _BLINKS if name in weights}
-    added = np.zeros_like(rest)
+    added, margins = np.zeros_like(rest), STILL.copy()
     for name, weight in weights.items():
-        added += weight * _kept_apart(name, size, a, modes)
+        by_curves, left = _kept_apart(name, size, a, modes)
+        added += weight * by_curves
+        margins[_OPENINGS.index("mouth")] += weight * left
     for name, (_, by_curves) in closed.items():
         added += weights[name] * by_curves
-    margins = STILL.copy()
     for name, (wanted, by_curves) in closed.items():
         weight, eye = weights[name], _BLINKS[name]
         # A blink undoes what others' corrections do to its lids by the way.
@@ -109,12 +110,20 @@ def _sources(weights: Mapping[str, float]) -> dict[str, float]:
 
 
 @lru_cache(maxsize=1024)
-def _kept_apart(name: str, size: tuple[int, int], a: float, modes: int) -> FloatArray:
-    """What keeps the lips of one expression from crossing: half of the way given to each."""
+def _kept_apart(
+    name: str, size: tuple[int, int], a: float, modes: int
+) -> tuple[FloatArray, FloatArray]:
+    """What keeps the lips of one expression from crossing: half of the way given to each.
+
+    Returns:
+        (K, M, 3) parting displacement of the curves; (2, n, 3) what it leaves to the margins.
+    """
     lips = seam("mouth", size, a, modes)
     moved = measured.expressions(_sources({**COMPANY.get(name, {}), name: 1.0}), size)
     crossed = lips.gap(moved.smooth, moved.parting)[:, 1].clip(max=0.0)
     up = np.multiply.outer(-0.5 * crossed, [0.0, 1.0, 0.0])
     apart = lips.moved(up, -up)
-    apart.setflags(write=False)
-    return apart
+    left = np.array([up, -up]) - lips.lines(np.zeros_like(apart), apart)
+    for array in (apart, left):
+        array.setflags(write=False)
+    return apart, left
