@@ -46,6 +46,11 @@ def export(
         typer.Option("--quads/--triangles", help="Quads (.obj, .ply) or triangles; by default "
                      "quads in .obj, triangles elsewhere."),
     ] = None,
+    displace: Annotated[
+        Path | None,
+        typer.Option("--displace", metavar="PICTURE", help="Heights to raise on the surface: what "
+                     "pdeface fit --displacement wrote."),
+    ] = None,
     compact: CompactOption = None,
     set_: SetOption = None,
     clamp: ClampOption = False,
@@ -71,17 +76,20 @@ def export(
       pdeface export face.pdeface -o still.glb --expressions none
       pdeface export face.pdeface -o avatar.vrm
       pdeface export face.pdeface -o talks.glb --visemes
+      pdeface export face.pdeface -o head.obj --mesh 541x481 --displace relief.png
       pdeface export face.pdeface -o small.pdeface --compact 0.1
     """
     size, weights = parse_mesh(mesh), parse_weights(set_)
     report = Report(quiet)
     import pdeface
     from pdeface.formats import SUFFIXES
+    from pdeface.relief import load_relief
 
     value = with_weights(pdeface.load(face), weights, clamp)
     moving = chosen_expressions(value, expressions, out)
     talking = speaking(visemes, value, out)
-    check_outputs(out, [face], SUFFIXES)
+    relief = None if displace is None else load_relief(displace)
+    check_outputs(out, [face, displace], SUFFIXES)
     check_compact(compact, out)
     for path in out:
         if compact is not None and is_face(path):
@@ -97,5 +105,6 @@ def export(
                 expressions=moving[path],
                 openings=openings,
                 visemes=path in talking,
+                relief=relief,
             )
         report.wrote(path)

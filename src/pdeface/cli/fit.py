@@ -59,6 +59,11 @@ def fit(
         typer.Option("--report", metavar="PICTURE", help="Picture of scan, fit and how far they "
                      "differ to write, ending in .png."),
     ] = None,
+    displacement: Annotated[
+        Path | None,
+        typer.Option("--displacement", metavar="PICTURE", help="What the curves leave out, as "
+                     "heights along the normals, to write: a .png of 16 bits (docs/scans.md)."),
+    ] = None,
     rounded: Annotated[
         bool, typer.Option("--round", help="Fit the curved surface that the triangles of a coarse "
                            "scan stand for, not their flat faces."),
@@ -103,6 +108,7 @@ def fit(
       pdeface fit head.stl --units mm --level 109x184 -o face.glb
       pdeface fit cloud.ply --landmarks points.json -o face.pdeface
       pdeface fit head.ply -o small.pdeface --no-texture --compact 0.1
+      pdeface fit head.ply --level 28x46 -o face.pdeface --displacement relief.png
       pdeface fit scans/ -o faces/ --jobs 2
       pdeface fit scans/ -o faces/ --dask tcp://127.0.0.1:8786
     """
@@ -118,6 +124,8 @@ def fit(
     if scan.is_dir():
         if report_picture is not None:
             raise InputError("--report is of one scan; leave it out for a folder")
+        if displacement is not None:
+            raise InputError("--displacement is of one scan; leave it out for a folder")
         fit_folder(scan, out, formats, jobs, how, report, cluster)
         return
     if cluster is not None:
@@ -126,14 +134,30 @@ def fit(
     check_compact(compact, out)
     check_outputs(out, inputs, SUFFIXES)
     check_outputs([report_picture] if report_picture else [], [*inputs, *out], [*PICTURES])
+    check_outputs(
+        [displacement] if displacement else [],
+        [*inputs, *out, *([report_picture] if report_picture else [])],
+        [".png"],
+    )
     found, measures = fit_file(scan, out, how, report)
     _tell(report, found, measures)
+    if displacement is not None:
+        _write_relief(report, found, displacement)
     if report_picture is not None:
         from pdeface.scan.report import report_sheet
 
         with report.step(f"drawing {report_picture}"):
             report_sheet(found, measures, report_picture)
         report.wrote(report_picture)
+
+
+def _write_relief(report: Report, found: ScanFit, path: Path) -> None:
+    from pdeface.relief import save_relief
+    from pdeface.scan import relief_of
+
+    with report.step("measuring what the curves leave out"):
+        save_relief(path, relief_of(found))
+    report.wrote(path)
 
 
 def _tell(report: Report, found: ScanFit, measures: Measures) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from pdeface.errors import InputError
@@ -19,6 +20,7 @@ from pdeface.formats.ply import write_ply
 from pdeface.formats.stl import write_stl
 from pdeface.formats.vrm import write_vrm
 from pdeface.pde import Join
+from pdeface.relief import Relief
 
 __all__ = [
     "SUFFIXES",
@@ -55,6 +57,7 @@ def export(
     animation: Animation | None = None,
     openings: Openings = "cut",
     visemes: bool = False,
+    relief: Relief | None = None,
 ) -> None:
     """Write ``face`` to ``path`` in the format that its suffix names.
 
@@ -82,6 +85,8 @@ def export(
             as the face has them.
         visemes: the fifteen visemes of speech as further morph targets, ``viseme_sil``, ...
             ``viseme_U``.
+        relief: what is raised on the surface along its normals, as :func:`pdeface.scan.relief_of`
+            finds it; not for ``.pdeface``.
 
     Raises:
         InputError: an unknown suffix or expression, a mesh, join or expression that the face
@@ -101,18 +106,22 @@ def export(
     _check(suffix, expressions, "expressions", SUFFIXES_THAT_MOVE, "them")
     _check(suffix, visemes, "visemes", SUFFIXES_THAT_MOVE, "them")
     _check(suffix, animation is not None, "an animation", SUFFIXES_THAT_PLAY, "it")
+    _check(suffix, relief is not None, "a relief", _MESHES, "it")
     if suffix == ".pdeface":
         face.save(path)
         return
     _check(suffix, quads, "quads", _WITH_QUADS, "quads", " for triangles")
     if suffix in SUFFIXES_THAT_MOVE:
         targets = _morph_targets(face, mesh, join, expressions, visemes, openings)
+        if relief is not None:
+            raised = sample(targets.face, mesh, join, openings, relief=relief)
+            targets = replace(targets, raised=raised)
         if suffix == ".vrm":
             write_vrm(face, targets, path)
         else:
             (write_glb if suffix == ".glb" else write_gltf)(face, targets, path, animation)
         return
-    surface = sample(face, mesh, join, openings)
+    surface = sample(face, mesh, join, openings, relief=relief)
     if suffix == ".obj":
         write_obj(face, surface, path, quads=quads is not False)
     elif suffix == ".ply":

@@ -11,6 +11,7 @@ from pdeface.controls.neck import PIVOT, rotations
 from pdeface.errors import InputError
 from pdeface.face import Face, Openings
 from pdeface.pde import Join
+from pdeface.relief import Relief
 from pdeface.uvmesh import FaceMesh, UVMesh
 
 __all__ = ["Sample", "sample"]
@@ -56,6 +57,7 @@ def sample(
     join: Join,
     openings: Openings = "cut",
     head: NDArray[np.float64] | None = None,
+    relief: Relief | None = None,
 ) -> Sample:
     """Sample ``face`` on a uv mesh of ``mesh = (rows, columns)``.
 
@@ -64,6 +66,7 @@ def sample(
         mesh: size of the uv mesh.
         join: how its patches meet.
         head: (3,) yaw, pitch and roll, radians, by which the head is turned about the neck.
+        relief: what is raised on the surface, along its normals.
 
     Raises:
         InputError: no such mesh, or a surface outside the range of single precision.
@@ -78,6 +81,8 @@ def sample(
             "(1081, 641) is as fine as any screen"
         )
     dense = face.mesh(rows, columns, join=join, openings=openings)
+    if relief is not None:
+        dense = relief.raised(dense)
     if head is not None:
         dense = dense.turned(rotations(head), PIVOT)
     with np.errstate(over="ignore"):

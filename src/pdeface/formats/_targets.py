@@ -90,6 +90,7 @@ class MorphTargets:
         join: how its patches meet.
         names: the expressions and visemes.
         weights: of these, in the order of their names.
+        raised: the face sampled with a relief on it, which is what a file shows.
 
     Raises:
         InputError: more than a gigabyte of displacements.
@@ -100,6 +101,7 @@ class MorphTargets:
     join: Join
     names: tuple[str, ...]
     weights: tuple[float, ...]
+    raised: Sample | None = None
 
     def __post_init__(self) -> None:
         rows, columns = self.surface.uv_mesh.rows, self.surface.uv_mesh.columns

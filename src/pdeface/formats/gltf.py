@@ -114,7 +114,9 @@ def add_face(
         The nodes of the head and of the face.
     """
     name = face.name or "face"
-    primitive = _add_primitive(document, targets.surface, _add_material(document, face))
+    primitive = _add_primitive(
+        document, targets.raised or targets.surface, _add_material(document, face)
+    )
     morphs: dict[str, Any] = {}
     if targets.names:
         primitive["targets"] = _add_targets(

@@ -19,6 +19,7 @@ from pdeface.scan.landmarks import find_landmarks
 from pdeface.scan.measures import Away, Measures, Spread, distances, measure
 from pdeface.scan.nearest import Target
 from pdeface.scan.reading import make_scan, read_scan
+from pdeface.scan.relief import relief_of
 from pdeface.scan.surface import Scan
 from pdeface.scan.texture import texture_of
 
@@ -37,5 +38,6 @@ __all__ = [
     "make_scan",
     "measure",
     "read_scan",
+    "relief_of",
     "texture_of",
 ]
