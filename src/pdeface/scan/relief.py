@@ -23,17 +23,23 @@ _BREADTH = 2.0e-3
 _ROUND = 0.5
 """Share of the way to the vertices' tangent planes: facets of a scan are no relief."""
 
+_DETAIL, _FACE = 0.25, 0.2
+"""Share of a scan's spacing below which heights follow its triangles, not its shape; and metres
+that a relief is wide and high."""
+
 
 def relief_of(fit: ScanFit, size: int = SIZE) -> Relief:
     """Heights of the scan over the fit, along the normals of its surface.
 
     Each texel goes to the nearest place of the scan that faces the same way, and goes on from there
     along its normal. Towards places that are far or face elsewhere, and over holes, heights fall
-    to 0.
+    to 0. Nothing is finer than a quarter of the scan's own triangles.
 
     Args:
         size: texels along either side.
     """
+    from scipy.ndimage import gaussian_filter
+
     target = Target(fit.scan, _BREADTH)
     curves = fit.face.curves
     middle = (np.arange(size) + 0.5) / size
@@ -43,7 +49,8 @@ def relief_of(fit: ScanFit, size: int = SIZE) -> Relief:
         grid = GridEvaluator(curves.shape, middle[rows], np.pi * middle)
         points, normals = (flat(of) for of in grid.positions_and_normals(curves.points))
         heights[rows] = _heights(target, points, normals).reshape(-1, size)
-    return Relief(heights)
+    width = _DETAIL * fit.scan.spacing / _FACE * size
+    return Relief(gaussian_filter(heights, width, mode="nearest"))
 
 
 def _heights(target: Target, points: FloatArray, normals: FloatArray) -> FloatArray:
