@@ -37,7 +37,7 @@ def test_a_bump_is_as_high_as_it_is(known, relief) -> None:
     """A wart of a millimetre on a cheek, narrower than the curves are apart."""
     place = known.face.surface()(0.6, 0.9)
     away = np.linalg.norm(known.scan.vertices - place, axis=1)
-    wart = 1e-3 * np.exp(-((away / 1.5e-3) ** 2))[:, None] * known.scan.normals
+    wart = 1e-3 * np.exp(-((away / 2.5e-3) ** 2))[:, None] * known.scan.normals
     scan = make_scan(known.scan.vertices + wart, known.scan.triangles)
     warty = relief_of(fit_scan(scan, (28, 46), landmarks=known.landmarks, units="m"), 256)
     rise = warty.heights - relief.heights
