@@ -56,16 +56,20 @@ def studio(
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     require("uvicorn", "studio", "to serve the studio")
     require("starlette", "studio", "to serve the studio")
+    from pdeface.studio.apart import apart
     from pdeface.studio.assets import folder
     from pdeface.studio.server import serve
 
     folder()  # before a photo is worked on for nothing
-    face, photos = _first(source, model)
+    # Apart: what it takes to make a face of a photo would stay with the server for good.
+    face, photos = apart(_first, source, model)
     given = str(model) if model else None
     serve(face, host=host, port=port, browser=browser, model=given, photos=photos)
 
 
-def _first(source: Path | None, model: Path | None) -> tuple[Face, tuple[PhotoView, ...]]:
+def _first(
+    _: object, source: Path | None, model: Path | None
+) -> tuple[Face, tuple[PhotoView, ...]]:
     """The face to begin with, and the photos that it was made of."""
     import pdeface
     from pdeface.cli.making import made_from

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.images import encode_compact
+from pdeface.studio.apart import apart
 from pdeface.studio.jobs import Result, Tell
 from pdeface.studio.photo_reading import lens_of, pixels_of
 from pdeface.studio.schema import CameraInfo, PhotoInfo, PhotoPoint
@@ -88,19 +89,18 @@ class PhotoDesk:
             InputError: no face in one of them, or too many photos.
             MissingExtraError: MediaPipe is not installed.
         """
-        from pdeface.photo import photo_views
-
         if not 1 <= len(keys) <= MOST_PHOTOS:
             raise InputError(
                 f"a person has 1 to {MOST_PHOTOS} photos here, got {len(keys)}; leave some out"
             )
-        photos = [self._looked_at(key, n, len(keys), tell) for n, key in enumerate(keys, 1)]
-        tell("fitting the person's shape", 0.4)
-        found = [photo.found for photo in photos if photo.found is not None]
-        views = photo_views([p.pixels for p in photos], found, [p.focal for p in photos])
-        tell("reading the texture", 0.75)
-        infos = self._kept(views, {id(p.pixels): key for p, key in zip(photos, keys, strict=True)})
-        texture = self._projected([info.id for info in infos])
+        photos = [self._photos.get(key) for key in keys]
+        views, order, texture = apart(_fitted, photos, self.model, tell=tell)
+        # The photos themselves are here already.
+        views = tuple(
+            view._replace(photo=photos[n].pixels) for view, n in zip(views, order, strict=True)
+        )
+        infos = self._kept(views, [keys[n] for n in order])
+        self._textures.put(_name(keys), texture)
         face = views[0].shape.face.with_name("photo").with_texture(texture)
         return Result(self._store.put(face), infos)
 
@@ -110,7 +110,7 @@ class PhotoDesk:
 
         if not self._first:
             self._first = photo_views([portrait()[0]], [portrait_face()])
-        return self._kept(self._first, {})
+        return self._kept(self._first, [secrets.token_hex(8) for _ in self._first])
 
     def picture(self, key: str) -> bytes:
         """The photo as the page shows it."""
@@ -155,28 +155,15 @@ class PhotoDesk:
             self._points(key, points).save(path)
             return path.read_bytes()
 
-    def _looked_at(self, key: str, number: int, count: int, tell: Tell) -> Photo:
-        """The photo with the face in it, which is looked for once."""
-        from pdeface.photo import choose, find_faces, model_file
+    def _kept(self, views: Views, keys: Sequence[str]) -> list[PhotoInfo]:
+        """Put the photos of a person on the desk, and say what the page is told of them."""
+        for key, view in zip(keys, views, strict=True):
+            self._photos.put(key, Photo(view.photo, self._focal(key), view.found))
+        self._people.put(_name(keys), views)
+        return [_info(key, view) for key, view in zip(keys, views, strict=True)]
 
-        photo = self._photos.get(key)
-        if photo.found is None:
-            name = "the photo" if count == 1 else f"photo {number} of {count}"
-            tell(f"looking for a face in {name}", 0.4 * (number - 0.5) / count)
-            found = choose(find_faces(photo.pixels, model_file(self.model)), 1, name)
-            photo = replace(photo, found=found)
-            self._photos.put(key, photo)
-        return photo
-
-    def _kept(self, views: Views, keys: dict[int, str]) -> list[PhotoInfo]:
-        """What the page is told of the photos of a person; new ones are put on the desk."""
-        infos = []
-        for view in views:
-            key = keys.get(id(view.photo)) or secrets.token_hex(8)
-            self._photos.put(key, Photo(view.photo, None, view.found))
-            infos.append(_info(key, view))
-        self._people.put(_name([info.id for info in infos]), views)
-        return infos
+    def _focal(self, key: str) -> float | None:
+        return self._photos.get(key).focal if key in self._photos else None
 
     def _projected(self, keys: Sequence[str]) -> Pixels:
         """The texture read through the fitted face, once for each person."""
@@ -197,6 +184,33 @@ class PhotoDesk:
         if not isinstance(value, dict):
             raise InputError("points are (x, y) by the names that the photo has; reload the page")
         return FeaturePoints(value, (width, height))
+
+
+def _fitted(
+    tell: Tell, photos: Sequence[Photo], model: str | None
+) -> tuple[Views, list[int], Pixels]:
+    """The person in some photos: views, the number of the photo of each, and the texture."""
+    from pdeface.photo import photo_views, projected_texture
+
+    count = len(photos)
+    found = [_face_in(photo, n, count, model, tell) for n, photo in enumerate(photos, 1)]
+    tell("fitting the person's shape", 0.4)
+    views = photo_views([p.pixels for p in photos], found, [p.focal for p in photos])
+    tell("reading the texture", 0.75)
+    numbers = {id(photo.pixels): n for n, photo in enumerate(photos)}
+    small = tuple(view._replace(photo=view.photo[:1, :1]) for view in views)
+    return small, [numbers[id(view.photo)] for view in views], projected_texture(views)
+
+
+def _face_in(photo: Photo, number: int, count: int, model: str | None, tell: Tell) -> PhotoFace:
+    """The face in a photo, which is looked for once."""
+    from pdeface.photo import choose, find_faces, model_file
+
+    if photo.found is not None:
+        return photo.found
+    name = "the photo" if count == 1 else f"photo {number} of {count}"
+    tell(f"looking for a face in {name}", 0.4 * (number - 0.5) / count)
+    return choose(find_faces(photo.pixels, model_file(model)), 1, name)
 
 
 def _name(keys: Sequence[str]) -> str:

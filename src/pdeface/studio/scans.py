@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from pdeface.face import Face
+from pdeface.studio.apart import apart
 from pdeface.studio.jobs import Result, Tell
 from pdeface.studio.schema import ScanInfo
 from pdeface.studio.store import FaceStore, Kept
 
 if TYPE_CHECKING:
-    from pdeface.scan import Target
+    from pdeface.scan import Scan, Spread, Target
 
 __all__ = ["MOST_VERTICES", "ScanDesk", "scan_suffix"]
 
@@ -82,31 +84,19 @@ class ScanDesk:
             InputError: no scan, or no face in it.
             MissingExtraError: what reads scans is not installed.
         """
-        from pdeface.scan import Target, fit_scan, measure, read_scan, texture_of
+        from pdeface.scan import Target
 
-        with TemporaryDirectory(prefix="pdeface-") as folder:
-            path = Path(folder) / f"scan{suffix}"
-            path.write_bytes(data)
-            head = read_scan(path)
-        model = Path(self._model) if self._model else None
-        found = fit_scan(head, model=model, progress=lambda text: tell(text, _share(text)))
-        tell("carrying the colours over", 0.88)
-        image = texture_of(found)
-        face = found.face.with_name("scan")
-        face = face if image is None else face.with_texture(image)
-        tell("measuring the fit", 0.94)
-        measures = measure(found)
-        there = measures.to_scan
+        face, scan, there, coverage = apart(_fitted, data, suffix, self._model, tell=tell)
         key = secrets.token_hex(8)
-        self._targets.put(key, Target(found.scan))
+        self._targets.put(key, Target(scan))
         note = f"fitted: RMS {there.rms:.2f} mm from the scan, median {there.median:.2f}"
         info = ScanInfo(
             key,
-            len(found.scan.vertices),
+            len(scan.vertices),
             there.rms,
             there.median,
             there.largest,
-            measures.coverage,
+            coverage,
         )
         return Result(self._store.put(face.with_notes({"fit": note})), scan=info)
 
@@ -135,6 +125,28 @@ class ScanDesk:
             return {"vertices": vertices, "triangles": scan.triangles.astype(np.int32)}
         step = -(-len(vertices) // MOST_VERTICES)
         return {"vertices": vertices[::step], "triangles": np.zeros((0, 3), np.int32)}
+
+
+def _fitted(
+    tell: Tell, data: bytes, suffix: str, model: str | None
+) -> tuple[Face, Scan, Spread, float]:
+    """A scan's face, the scan in its frame, how far they are apart, and the scan's coverage."""
+    from pdeface.scan import Scan, fit_scan, measure, read_scan, texture_of
+
+    with TemporaryDirectory(prefix="pdeface-") as folder:
+        path = Path(folder) / f"scan{suffix}"
+        path.write_bytes(data)
+        head = read_scan(path)
+    given = Path(model) if model else None
+    found = fit_scan(head, model=given, progress=lambda text: tell(text, _share(text)))
+    tell("carrying the colours over", 0.88)
+    image = texture_of(found)
+    face = found.face.with_name("scan")
+    face = face if image is None else face.with_texture(image)
+    tell("measuring the fit", 0.94)
+    measures = measure(found)
+    bare = Scan(found.scan.vertices, found.scan.triangles, given_normals=found.scan.normals)
+    return face, bare, measures.to_scan, measures.coverage
 
 
 def _share(text: str) -> float:

@@ -1,0 +1,83 @@
+"""Heavy work in a process of its own, which takes its memory with it when it ends.
+
+MediaPipe alone holds more memory than all the rest of the server, and gives none of it back.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from multiprocessing import get_context
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pdeface.errors import PDEFaceError
+
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
+__all__ = ["apart"]
+
+Value = TypeVar("Value")
+Heard = Callable[[str, float], None]
+
+
+def apart(work: Callable[..., Value], *arguments: Any, tell: Heard | None = None) -> Value:
+    """What ``work(tell, *arguments)`` returns, done in another process.
+
+    Args:
+        work: a function of a module; arguments and result go from process to process.
+        arguments: for it.
+        tell: hears what the work says of its progress.
+
+    Raises:
+        PDEFaceError: the process ended without a word, as when memory runs out; and whatever the
+            work raises.
+    """
+    # A fork of a process with threads may hang; a spawned one begins anew.
+    context = get_context("spawn")
+    # The products are small: threads would cost many times more than they bring.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    here, there = context.Pipe()
+    process = context.Process(target=_done, args=(there, work, arguments), daemon=True)
+    process.start()
+    there.close()
+    try:
+        while True:
+            kind, value = here.recv()
+            if kind == "done":
+                result: Value = value
+                return result
+            if kind == "failed":
+                raise value
+            if tell is not None:
+                tell(*value)
+    except EOFError:
+        raise PDEFaceError(
+            "the work ended before its time, perhaps for want of memory; close other programs and "
+            "try again"
+        ) from None
+    finally:
+        here.close()
+        process.kill()
+        process.join()
+
+
+def _done(there: Connection, work: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+    def tell(text: str, share: float = 0.0) -> None:
+        there.send(("told", (text, share)))
+
+    try:
+        there.send(("done", work(tell, *arguments)))
+    except Exception as error:  # whatever it is, who waits must hear of it
+        there.send(("failed", _portable(error)))
+
+
+def _portable(error: Exception) -> Exception:
+    """The error itself if it can travel, else its text."""
+    import pickle
+
+    try:
+        pickle.loads(pickle.dumps(error))
+        return error
+    except Exception:  # what an error of another library holds is beyond all knowledge
+        return PDEFaceError(f"unexpected {type(error).__name__}: {error}")
