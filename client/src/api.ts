@@ -6,11 +6,13 @@ import type { ClipInfo, ExportRequest, FaceInfo, Opened, PhotoInfo, PhotosInfo, 
 export type Weights = Readonly<Record<string, number>>;
 // Feature points by name, pixels of a photo.
 export type Points = Readonly<Record<string, readonly number[]>>;
+export type Join = "smooth" | "patchwise";
 // Read through the fitted face, or the paper's five steps.
 export type TextureWay = "project" | "warp";
 export interface Size {
   readonly rows: number;
   readonly columns: number;
+  readonly join?: Join;
 }
 // A curve, a point on its front half, and the share of a move that it makes.
 export type Handle = readonly [number, number, number];
@@ -51,7 +53,7 @@ async function packet(answer: Promise<Response>): Promise<Packet> {
 
 const face = (id: string) => `/api/faces/${encodeURIComponent(id)}`;
 const photo = (id: string) => `/api/photos/${encodeURIComponent(id)}`;
-const query = ({ rows, columns }: Size) => `rows=${rows}&columns=${columns}`;
+const query = ({ rows, columns, join = "smooth" }: Size) => `rows=${rows}&columns=${columns}&join=${join}`;
 
 export const api = {
   schema: () => json<Schema>(ask("/api/schema")),

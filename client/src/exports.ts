@@ -90,7 +90,7 @@ export function exportDialog(studio: Studio, motion: Motion): void {
       } else {
         const [rows, columns] = MESHES[Number(of("mesh").value)]!;
         const blob = await studio.exported({
-          weights: own(suffix), name, format: suffix, rows, columns,
+          weights: own(suffix), name, format: suffix, rows, columns, join: studio.size.join ?? "smooth",
           expressions: of("expressions").checked, visemes: of("visemes").checked,
         }, face);
         const zip = blob.type === "application/zip";

@@ -69,6 +69,7 @@ export interface ExportRequest {
   readonly format: string;
   readonly rows: number;
   readonly columns: number;
+  readonly join: string;
   readonly expressions: boolean;
   readonly visemes: boolean;
 }

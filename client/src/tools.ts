@@ -1,5 +1,6 @@
 // What floats on the stage: how the face is shown, from where, and how finely.
 
+import type { Join } from "./api";
 import { h } from "./dom";
 import { icon } from "./icons";
 import { MODES, type Mode } from "./modes";
@@ -47,9 +48,14 @@ export class Tools {
     this.#density = h("select", { "aria-label": "Density of the mesh", id: "density", title: "Density of the mesh" },
       ...schema.densities.map(({ label }, i) => h("option", { value: i }, label)));
     this.#density.value = String(schema.densities.findIndex((d) => d.rows === studio.size.rows));
-    this.#density.addEventListener("change", () =>
-      void studio.setSize(schema.densities[Number(this.#density.value)]!));
-    modes.append(h("span", { class: "rule" }), this.#density);
+    const join = h("select", { "aria-label": "Join of the patches", id: "join", title: "How the surface goes on from patch to patch" },
+      h("option", { value: "smooth" }, "Smooth"), h("option", { value: "patchwise" }, "Patchwise"));
+    const mesh = () => {
+      const { rows, columns } = schema.densities[Number(this.#density.value)]!;
+      void studio.setSize({ rows, columns, join: join.value as Join });
+    };
+    for (const choice of [this.#density, join]) choice.addEventListener("change", mesh);
+    modes.append(h("span", { class: "rule" }), this.#density, join);
     stage.append(views, modes);
     for (const moment of ["shown", "shown-otherwise"]) studio.addEventListener(moment, () => this.#show());
     this.#show();

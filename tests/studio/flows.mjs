@@ -86,6 +86,16 @@ async function modes(page) {
       return least;
     });
   }
+  await page.getByRole("button", { name: "Curvature", exact: true }).click();
+  await page.evaluate(() => (window.smooth = pixels()));
+  const joined = async (join) => {
+    await page.locator("#join").selectOption(join);
+    await page.waitForFunction((wanted) => studio.head.size.join === wanted && studio.head.morph.ready, join, { polling: 50 });
+    await page.waitForTimeout(300);
+  };
+  await joined("patchwise");
+  found.patchwise = { seen: await page.evaluate(() => changed(smooth, pixels())), skin: await page.evaluate(() => skin()) };
+  await joined("smooth");
   await page.getByRole("button", { name: "Textured", exact: true }).click();
   found.back = await page.evaluate(() => changed(kept[0], pixels()));
   found.covered = await page.evaluate(() => changed(kept[0], new Uint8Array(kept[0].length)));

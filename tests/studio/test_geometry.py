@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import pdeface
 from pdeface.controls import CONTROLS
 from pdeface.motion import clip
 
@@ -132,3 +133,23 @@ def test_lids_meet_while_a_clip_plays(visitor, columns, at, unpack) -> None:
 )
 def test_nonsense_is_refused_in_a_line(visitor, name: str, value, message: str) -> None:
     assert message in visitor.refused(name, **value)
+
+
+def test_the_paper_s_join_is_evaluated_as_well(visitor, unpack) -> None:
+    weights = LINEAR
+    size = {"rows": ROWS, "columns": COLUMNS, "join": "patchwise"}
+    asked = unpack(visitor.post("evaluate", states=[weights], join="patchwise"))
+    answer = visitor.client.get(visitor.path("model.glb"), params=size)
+    assert answer.content.startswith(b"glTF")
+    columns = unpack(visitor.client.get(visitor.path("columns"), params=size).content)
+    rest = unpack(visitor.post("evaluate", states=[{}], join="patchwise"))["positions"][0]
+    found = asked["positions"][0]
+    skin = pdeface.neutral().set(**weights).mesh(28, 41, join="patchwise").vertices
+    np.testing.assert_allclose(found[: len(skin)], skin, atol=1e-6)
+    # No openings, so nothing behind them: the skin and the curves are all there is.
+    assert len(found) == len(skin) + 28 * 46
+    np.testing.assert_allclose(rest[: len(skin)] + added(columns, weights), skin, atol=ALIKE)
+
+
+def test_another_join_is_refused(visitor) -> None:
+    assert "'smooth' or 'patchwise'" in visitor.refused("evaluate", states=[{}], join="loose")

@@ -102,6 +102,13 @@ def test_every_way_of_showing_looks_different(report) -> None:
     assert {way: modes[way] for way in ways if modes[way] < 1000} == {}
 
 
+def test_the_paper_s_join_is_shown_as_well(report) -> None:
+    found = report["modes"]["patchwise"]
+    assert found["seen"] > SEEN
+    paper = pdeface.neutral().mesh(28, 41, join="patchwise").vertices
+    np.testing.assert_allclose(np.reshape(found["skin"], (-1, 3)), paper, atol=ALIKE)
+
+
 def test_the_camera_moves_by_keys_and_by_dragging(report) -> None:
     views = report["views"]
     assert views.pop("orthographic") is True

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -15,9 +15,10 @@ from starlette.routing import BaseRoute, Route
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.studio.blending import blended
+from pdeface.studio.geometry import Geometry
 from pdeface.studio.moves import with_moves
 from pdeface.studio.packets import pack_arrays, packed
-from pdeface.studio.requests import answered, as_json, json_body, mesh_size, weights_of
+from pdeface.studio.requests import answered, as_json, join_of, json_body, mesh_size, weights_of
 from pdeface.studio.saving import exported, saved
 from pdeface.studio.schema import FaceInfo, schema
 from pdeface.studio.store import FaceStore, describe
@@ -50,13 +51,13 @@ class FaceRoutes:
 
     async def model(self, request: Request) -> Response:
         """The GLB of a face without weights."""
-        geometry = self._store.geometry(request.path_params["id"], *mesh_size(request.query_params))
+        geometry = self._geometry(request, request.query_params)
         data = await run_in_threadpool(geometry.glb)
         return Response(data, media_type="model/gltf-binary", headers=_cached())
 
     async def columns(self, request: Request) -> Response:
         """What each control adds, as a packet."""
-        geometry = self._store.geometry(request.path_params["id"], *mesh_size(request.query_params))
+        geometry = self._geometry(request, request.query_params)
 
         def made() -> list[bytes | memoryview]:
             parts = list(geometry.parts)
@@ -73,7 +74,7 @@ class FaceRoutes:
         if not isinstance(states, list) or not 1 <= len(states) <= _MOST_STATES:
             raise InputError(f"states are 1 to {_MOST_STATES} sets of weights; reload the page")
         weights = [weights_of(state) for state in states]
-        geometry = self._store.geometry(request.path_params["id"], *mesh_size(value))
+        geometry = self._geometry(request, value)
 
         def made() -> bytes:
             found = [geometry.exact(w, normals=not n) for n, w in enumerate(weights)]
@@ -85,7 +86,7 @@ class FaceRoutes:
     async def response(self, request: Request) -> Response:
         """What a metre of some handles together adds to the skin and to the curves."""
         value = await json_body(request)
-        geometry = self._store.geometry(request.path_params["id"], *mesh_size(value))
+        geometry = self._geometry(request, value)
         handles, symmetric = value.get("handles"), bool(value.get("symmetric"))
         if not isinstance(handles, list) or not all(
             isinstance(handle, list) and len(handle) == 3 for handle in handles
@@ -118,7 +119,7 @@ class FaceRoutes:
         if not isinstance(frames, list) or not 1 <= len(frames) <= _MOST_FRAMES:
             raise InputError(f"frames are 1 to {_MOST_FRAMES} sets of weights; reload the page")
         start, states = weights_of(value.get("weights")), [weights_of(frame) for frame in frames]
-        geometry = self._store.geometry(request.path_params["id"], *mesh_size(value))
+        geometry = self._geometry(request, value)
         found = await run_in_threadpool(geometry.residuals, start, states)
         return Response(pack_arrays(found), media_type=_BYTES)
 
@@ -132,11 +133,15 @@ class FaceRoutes:
         """The face with these weights as a file of another format."""
         value = await json_body(request)
         face = self._face(request, value)
-        make = partial(exported, face, str(value.get("format")), mesh_size(value))
+        make = partial(exported, face, str(value.get("format")), mesh_size(value), join_of(value))
         data, kind = await run_in_threadpool(
             make, bool(value.get("expressions")), bool(value.get("visemes"))
         )
         return Response(data, media_type=kind)
+
+    def _geometry(self, request: Request, value: Mapping[str, Any]) -> Geometry:
+        key = request.path_params["id"]
+        return self._store.geometry(key, *mesh_size(value), join_of(value))
 
     def _face(self, request: Request, value: dict[str, Any]) -> Face:
         face = self._store.get(request.path_params["id"])

@@ -21,6 +21,7 @@ from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.formats import export, part_on_mesh
 from pdeface.parts import FaceParts, has_parts
+from pdeface.pde import Join
 from pdeface.sampler import sampler
 from pdeface.studio.moves import front_moves
 
@@ -44,22 +45,25 @@ class Geometry:
     Args:
         face: the face; its weights are left out.
         rows, columns: of the uv mesh.
+        join: of the surface.
 
     Raises:
         InputError: a mesh that is too fine for the page.
     """
 
-    def __init__(self, face: Face, rows: int, columns: int) -> None:
+    def __init__(self, face: Face, rows: int, columns: int, join: Join = "smooth") -> None:
         if rows * columns > MOST_VERTICES or min(rows, columns) < 2:
             raise InputError(
                 f"the page shows 2 x 2 to {MOST_VERTICES:,} vertices, got {rows} x {columns}; "
                 "export finer meshes"
             )
         self.face = face.with_weights(dict.fromkeys(face.weights, 0.0))
-        self.size = rows, columns
-        self._mesh = self.face.uv_mesh(rows, columns)
+        self.size, self._join = (rows, columns), join
+        self._mesh = self.face.uv_mesh(rows, columns, join=join)
+        # The paper's join has no slits: what parts lids and lips moves the curves themselves.
+        self._parted = join == "smooth" and face.has_lids
         self._sampler = sampler(
-            face.curves.shape, self._mesh, face.a, face.modes, "smooth", face.has_lids
+            face.curves.shape, self._mesh, face.a, face.modes, join, self._parted
         )
 
     @cached_property
@@ -79,7 +83,7 @@ class Geometry:
         """The face without weights as a user exports it, without morph targets."""
         with TemporaryDirectory(prefix="pdeface-") as folder:
             path = Path(folder) / "face.glb"
-            export(self.face, path, mesh=self.size, expressions=())
+            export(self.face, path, mesh=self.size, join=self._join, expressions=())
             return path.read_bytes()
 
     def exact(self, weights: Mapping[str, float], normals: bool = False) -> tuple[Float32, Float32]:
@@ -201,7 +205,7 @@ class Geometry:
         return {name: self._alone(name) for name in CONTROLS}
 
     def _layers(self, smooth: FloatArray, parting: FloatArray) -> FloatArray:
-        return np.concatenate([smooth, parting], axis=-3) if self.face.has_lids else smooth
+        return np.concatenate([smooth, parting], axis=-3) if self._parted else smooth + parting
 
     def _alone(self, name: str) -> Displacement:
         """What a control adds to the curves at 1, among those without which it does nothing."""

@@ -11,8 +11,18 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from pdeface.errors import InputError, PDEFaceError
+from pdeface.pde import Join
 
-__all__ = ["LARGEST_UPLOAD", "answered", "as_json", "body", "json_body", "mesh_size", "weights_of"]
+__all__ = [
+    "LARGEST_UPLOAD",
+    "answered",
+    "as_json",
+    "body",
+    "join_of",
+    "json_body",
+    "mesh_size",
+    "weights_of",
+]
 
 LARGEST_UPLOAD = 64 << 20
 """Bytes of a file that is opened, at most."""
@@ -83,6 +93,18 @@ def mesh_size(value: Mapping[str, Any]) -> tuple[int, int]:
         return int(value["rows"]), int(value["columns"])
     except (KeyError, TypeError, ValueError) as error:
         raise InputError("rows and columns are whole numbers; reload the page") from error
+
+
+def join_of(value: Mapping[str, Any]) -> Join:
+    """``join``, ``"smooth"`` if it is not said.
+
+    Raises:
+        InputError: another.
+    """
+    join = value.get("join", "smooth")
+    if join not in ("smooth", "patchwise"):
+        raise InputError(f"a join is 'smooth' or 'patchwise', got {join!r}; reload the page")
+    return join
 
 
 def weights_of(value: Any) -> dict[str, float]:

@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.formats import SUFFIXES, SUFFIXES_THAT_MOVE, export
+from pdeface.pde import Join
 
 __all__ = ["MOST_EXPORTED", "exported", "saved"]
 
@@ -28,7 +29,12 @@ def saved(face: Face) -> bytes:
 
 
 def exported(
-    face: Face, suffix: str, mesh: tuple[int, int], expressions: bool, visemes: bool
+    face: Face,
+    suffix: str,
+    mesh: tuple[int, int],
+    join: Join,
+    expressions: bool,
+    visemes: bool,
 ) -> tuple[bytes, str]:
     """The bytes of an exported file and their media type; several files come as a ZIP.
 
@@ -36,6 +42,7 @@ def exported(
         face: the face.
         suffix: of the format, or ``".png"`` for the texture.
         mesh: (rows, columns).
+        join: of the surface.
         expressions, visemes: whether they become morph targets, where the format has them.
 
     Raises:
@@ -56,7 +63,7 @@ def exported(
     targets = (None if expressions else ()) if moving else None
     with TemporaryDirectory(prefix="pdeface-") as folder:
         path = Path(folder) / f"face{suffix}"
-        export(face, path, mesh=mesh, expressions=targets, visemes=moving and visemes)
+        export(face, path, mesh=mesh, join=join, expressions=targets, visemes=moving and visemes)
         files = sorted(Path(folder).iterdir())
         if len(files) == 1:
             return path.read_bytes(), _TYPES.get(suffix, "application/octet-stream")

@@ -9,7 +9,7 @@ from starlette.responses import Response
 from starlette.routing import BaseRoute, Route
 
 from pdeface.studio.packets import pack_arrays
-from pdeface.studio.requests import answered, json_body, mesh_size, weights_of
+from pdeface.studio.requests import answered, join_of, json_body, mesh_size, weights_of
 from pdeface.studio.scans import ScanDesk
 from pdeface.studio.store import FaceStore
 
@@ -31,7 +31,7 @@ class ScanRoutes:
         """How far each vertex of the skin is from the scan, as a packet."""
         value = await json_body(request)
         weights = weights_of(value.get("weights"))
-        geometry = self._store.geometry(str(value.get("face")), *mesh_size(value))
+        geometry = self._store.geometry(str(value.get("face")), *mesh_size(value), join_of(value))
 
         def made() -> bytes:
             found = geometry.exact(weights, normals=True)

@@ -122,6 +122,7 @@ class ExportRequest:
     format: str
     rows: int
     columns: int
+    join: str
     expressions: bool
     visemes: bool
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from pdeface.errors import InputError
 from pdeface.face import Face
+from pdeface.pde import Join
 from pdeface.studio.geometry import Geometry
 from pdeface.studio.schema import FaceInfo
 
@@ -81,15 +82,15 @@ class FaceStore:
     def __contains__(self, key: str) -> bool:
         return key in self._faces
 
-    def geometry(self, key: str, rows: int, columns: int) -> Geometry:
+    def geometry(self, key: str, rows: int, columns: int, join: Join = "smooth") -> Geometry:
         """The geometry of a face on a uv mesh.
 
         Raises:
             InputError: an unknown face, or a mesh that is too fine.
         """
-        name = f"{key}/{rows}x{columns}"
+        name = f"{key}/{rows}x{columns}/{join}"
         if name not in self._geometries:
-            self._geometries.put(name, Geometry(self.get(key), rows, columns))
+            self._geometries.put(name, Geometry(self.get(key), rows, columns, join))
         return self._geometries.get(name)
 
 
