@@ -40,9 +40,9 @@ export class Bar {
     place.append(
       h("div", { class: "brand" }, h("b", {}, "pdeface"), " studio"),
       this.#name,
-      h("div", { class: "cluster" }, this.#undo, this.#redo, h("div", { class: "anchor" }, past, this.#history)),
+      h("div", { class: "cluster past" }, this.#undo, this.#redo, h("div", { class: "anchor" }, past, this.#history)),
       h("div", { class: "space" }),
-      h("div", { class: "cluster" },
+      h("div", { class: "cluster doors" },
         tool("open", "Open a photo, a scan, a face or a motion (Ctrl+O)", commands.open, "Open"),
         tool("photo", "Photo and its points", commands.photo, "Photo"),
         tool("motion", "Motion (Space)", commands.motion, "Motion"),

@@ -23,6 +23,7 @@ import { Studio } from "./studio";
 import { setTheme, theme } from "./theme";
 import { toast } from "./toast";
 import { Tools } from "./tools";
+import { tour } from "./tour";
 import { Viewer } from "./viewer";
 import { Webcam } from "./webcam";
 
@@ -148,20 +149,18 @@ async function start(): Promise<void> {
   else if (left && worthIt(left)) offer(left, timeline);
   Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, scan, webcam, api });
   await studio.load();
-  welcome(() => help(shortcuts));
+  welcome();
   await studio.keepCurrent();
   keep();
 }
 
 const SEEN = "pdeface.studio.1.seen";
 
-// Once: where to begin.
-function welcome(more: () => void): void {
+// Once: what is where.
+function welcome(): void {
   if (localStorage.getItem(SEEN)) return;
   localStorage.setItem(SEEN, "yes");
-  toast("Drag the face to turn it, move a slider to shape it, drop a photo to make it yours.", {
-    label: "More", act: more,
-  });
+  tour();
 }
 
 function worthIt({ steps }: Session): boolean {

@@ -13,6 +13,7 @@ export async function flows(page, { folder, gone, expecting }) {
     console.error(name, Date.now() - began, "ms");
   };
   await ready(page);
+  report.tour = await toured(page);
   await page.evaluate(help, VISIBLE);
   await page.locator("#density").selectOption("0");
   await page.waitForFunction(() => studio.head.size.rows === 28 && studio.head.morph.ready, null, { polling: 50 });
@@ -42,6 +43,26 @@ export async function flows(page, { folder, gone, expecting }) {
 
 async function ready(page) {
   await page.waitForFunction(() => document.documentElement.dataset.ready, null, { polling: 100 });
+}
+
+// The first screen says what is where, each note on the page, and comes but once.
+async function toured(page) {
+  const notes = page.locator("dialog.tour section");
+  const gone = () => page.locator("dialog").waitFor({ state: "detached" });
+  await notes.last().waitFor();
+  const boxes = await notes.evaluateAll((all) => all.map((note) => {
+    const { left, top, right, bottom } = note.getBoundingClientRect();
+    return [left, top, right, bottom];
+  }));
+  await page.getByRole("button", { name: "Begin", exact: true }).click();
+  await gone();
+  await page.keyboard.press("?");
+  await page.locator("#tour").click();
+  await notes.last().waitFor();
+  const again = await notes.count();
+  await page.keyboard.press("Escape");
+  await gone();
+  return { boxes, again, left: await page.locator("dialog").count(), view: page.viewportSize() };
 }
 
 // Functions of the page for the flows below.
@@ -639,6 +660,7 @@ async function recovered(page) {
   const before = await page.evaluate(() => [studio.timeline.steps.length, studio.doc]);
   await page.reload();
   await ready(page);
+  const again = await page.locator("dialog.tour").count();
   const after = await page.evaluate(() => [studio.timeline.steps.length, studio.doc]);
-  return { before, after };
+  return { before, after, again };
 }

@@ -94,6 +94,22 @@ def test_nothing_is_complained_of_and_nothing_asked_of_the_network(report) -> No
     assert report["complaints"] == []
 
 
+def test_the_first_screen_says_what_is_where_once(report) -> None:
+    tour = report["tour"]
+    boxes = np.array(tour["boxes"])
+    assert len(boxes) == tour["again"] == 5
+    assert boxes.min() >= 0
+    assert (boxes[:, 2] <= tour["view"]["width"]).all()
+    assert (boxes[:, 3] <= tour["view"]["height"]).all()
+    for n, one in enumerate(boxes):
+        for other in boxes[n + 1 :]:
+            across = min(one[2], other[2]) - max(one[0], other[0])
+            down = min(one[3], other[3]) - max(one[1], other[1])
+            assert min(across, down) <= 0
+    assert tour["left"] == 0
+    assert report["recovered"]["again"] == 0
+
+
 def test_every_way_of_showing_looks_different(report) -> None:
     modes = report["modes"]
     assert modes["covered"] > 20_000
