@@ -52,9 +52,10 @@ def table(title: str, rows: Sequence[Result]) -> None:
         print(f"    {name:38s}" + "".join(f"{value:10.2f}" for value in values))
     gains = np.array([1.0 - mean(row.fitted) / mean(row.scaled) for row in rows])
     errors = 100.0 * np.array([row.error for row in rows])
-    # fmt: off
-    print(f"    nearer than the scaled neutral by {100 * gains.mean():.0f} per cent; "
-          f"worse in {(gains < 0).sum()} of {len(rows)}, at worst by {-100 * gains.min():.0f}; "
-          f"reprojection {errors.mean():.2f}, at most {errors.max():.2f} per cent of the eye "
-          f"distance; identity within {max(row.most for row in rows):.1f} sd; drawn again "
-          f"{100.0 * np.mean([row.image for row in rows]):.1f} per cent from the photo's colours")
+    print(
+        f"    nearer than the scaled neutral by {100 * gains.mean():.0f} per cent; "
+        f"worse in {(gains < 0).sum()} of {len(rows)}, at worst by {-100 * gains.min():.0f}; "
+        f"reprojection {errors.mean():.2f}, at most {errors.max():.2f} per cent of the eye "
+        f"distance; identity within {max(row.most for row in rows):.1f} sd; drawn again "
+        f"{100.0 * np.mean([row.image for row in rows]):.1f} per cent from the photo's colours"
+    )

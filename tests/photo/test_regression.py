@@ -11,7 +11,8 @@ pytest.importorskip("scipy", reason="needs the extra 'template'")
 
 from pdeface.photo import portrait_face
 from pdeface.photo.build import learning
-from pdeface.photo.build.learning import Rows, learn, mirror_signs, partners, write
+from pdeface.photo.build.learning import Rows, learn, mirror_signs, write
+from pdeface.photo.mirrors import partners
 from pdeface.photo.regression import (
     Learnt,
     expected_identity,

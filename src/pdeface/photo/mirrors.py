@@ -15,11 +15,13 @@ from numpy.typing import NDArray
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.regression import learnt
 
-__all__ = ["evened", "unmirrored"]
+__all__ = ["ACROSS", "evened", "other_side", "partners", "unmirrored"]
 
 FloatArray = NDArray[np.float64]
 
-_ACROSS = np.array([-1.0, 1.0, 1.0])
+ACROSS = np.array([-1.0, 1.0, 1.0])
+"""What a mirror does to x, y and z."""
+
 _NEAR = 0.25
 """Of a face's size: how far its finds may be apart."""
 
@@ -31,9 +33,9 @@ def unmirrored(face: PhotoFace, axis: float) -> PhotoFace:
         face: found in the mirror image.
         axis: x that the mirror leaves where it is, pixels.
     """
-    places = face.landmarks[_partners()] * _ACROSS + (2.0 * axis, 0.0, 0.0)
-    mirror = np.diag((*_ACROSS, 1.0))
-    scores = {_other_side(name): score for name, score in face.scores.items()}
+    places = face.landmarks[_partners()] * ACROSS + (2.0 * axis, 0.0, 0.0)
+    mirror = np.diag((*ACROSS, 1.0))
+    scores = {other_side(name): score for name, score in face.scores.items()}
     return PhotoFace(places, scores, mirror @ face.pose @ mirror, face.image_size)
 
 
@@ -60,14 +62,18 @@ def _mean(one: PhotoFace, other: PhotoFace) -> PhotoFace:
     return PhotoFace(0.5 * (one.landmarks + other.landmarks), scores, pose, one.image_size)
 
 
-def _other_side(name: str) -> str:
+def other_side(name: str) -> str:
     """An expression's name on the other side of the face."""
     return name.replace("Left", "-").replace("Right", "Left").replace("-", "Right")
 
 
+def partners(mean: FloatArray) -> NDArray[np.int64]:
+    """(n,) which landmark is the mirror image of each, on a face (n, 3) that is its own."""
+    square = ((mean[:, None] - mean * ACROSS) ** 2).sum(axis=2)
+    return np.asarray(square.argmin(axis=1))
+
+
 @lru_cache(maxsize=1)
 def _partners() -> NDArray[np.int64]:
-    """(478,) the landmark that is the mirror image of each."""
-    mean = learnt().mean  # it is its own mirror image
-    square = ((mean[:, None] - mean * _ACROSS) ** 2).sum(axis=2)
-    return np.asarray(square.argmin(axis=1))
+    """(478,) as :func:`partners`, for the mean of all faces."""
+    return partners(learnt().mean)

@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from pdeface.controls.measured import IDENTITIES, identities
 from pdeface.files import atomic_path
 from pdeface.photo.build.samples import Numbers
 from pdeface.photo.found import PhotoFace
+from pdeface.photo.mirrors import ACROSS, other_side, partners
 from pdeface.photo.regression import Learnt, features, levelled, regressors, score_names
 
 __all__ = ["Rows", "learn", "mean_landmarks", "rows_of", "write"]
@@ -30,7 +30,6 @@ RIDGE = 0.05
 
 FOLDS = 5
 _AXES = np.array([1.0, -1.0, -1.0])
-_ACROSS = np.array([-1.0, 1.0, 1.0])
 
 
 class Rows(NamedTuple):
@@ -57,23 +56,17 @@ def mean_landmarks(samples: Numbers) -> FloatArray:
     mean = np.mean(ahead / np.linalg.norm(ahead, axis=(1, 2), keepdims=True), axis=0)
     other = partners(mean)
     for _ in range(4):
-        mean = 0.5 * (mean + mean[other] * _ACROSS)
+        mean = 0.5 * (mean + mean[other] * ACROSS)
         mean = mean / np.linalg.norm(mean)
         mean = np.mean([levelled(m, mean)[0] for m in marks], axis=0)
-    mean = 0.5 * (mean + mean[other] * _ACROSS)
+    mean = 0.5 * (mean + mean[other] * ACROSS)
     return np.asarray(mean / np.linalg.norm(mean))
-
-
-def partners(mean: FloatArray) -> NDArray[np.int64]:
-    """(n,) which landmark is the mirror image of each."""
-    return np.asarray(cKDTree(mean).query(mean * _ACROSS)[1])
 
 
 def rows_of(samples: Numbers, mean: FloatArray) -> Rows:
     """All samples, and after them their mirror images."""
     names = score_names()
-    swapped = [n.replace("Left", "-").replace("Right", "Left").replace("-", "Right") for n in names]
-    order, other = [names.index(name) for name in swapped], partners(mean)
+    order, other = [names.index(other_side(name)) for name in names], partners(mean)
     marks, others = [], []
     for mirror in (False, True):
         for points, scores, focal in zip(
@@ -83,7 +76,7 @@ def rows_of(samples: Numbers, mean: FloatArray) -> Rows:
             strict=True,
         ):
             if mirror:
-                points, scores = points[other] * _ACROSS, scores[order]
+                points, scores = points[other] * ACROSS, scores[order]
             named = dict(zip(names, scores.tolist(), strict=True))
             face = PhotoFace(points, named, np.eye(4), (1, 1))
             shape, rest = features(face, float(focal), mean)
@@ -100,7 +93,7 @@ def mirror_signs() -> FloatArray:
     for mode in range(IDENTITIES):
         moved = identities({mode: 1.0}, (28, 46))
         front = moved[:, : moved.shape[1] // 2]
-        signs.append(np.sign(np.sum(front * front[:, ::-1] * _ACROSS)))
+        signs.append(np.sign(np.sum(front * front[:, ::-1] * ACROSS)))
     return np.array(signs)
 
 
