@@ -14,8 +14,9 @@ __all__ = ["View", "around", "distinct", "tries"]
 
 Pixels = NDArray[np.uint8]
 
-_LARGEST = 2048
-"""Pixels along a view's longer side, at most: the detector itself looks at a few hundred."""
+_LARGEST = 1024
+"""Pixels along a view's longer side, at most: the detector itself looks at 256, and shrinks what is
+larger without a filter."""
 
 _SMALLEST = 64
 """Pixels along the shorter side of a part, at least."""
@@ -139,5 +140,6 @@ def _shrunk(pixels: Pixels) -> Pixels:
     from PIL import Image
 
     size = [max(1, round(side * _LARGEST / longest)) for side in (pixels.shape[1], pixels.shape[0])]
-    resized = Image.fromarray(pixels).resize((size[0], size[1]), Image.Resampling.BOX)
+    way = Image.Resampling.BOX
+    resized = Image.fromarray(pixels).resize((size[0], size[1]), way, reducing_gap=1.0)
     return np.asarray(resized)

@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.errors import InputError, require
+from pdeface.errors import InputError
 from pdeface.files import PathLike
 from pdeface.photo import _views
+from pdeface.photo.engine import mediapipe
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.mirrors import evened, unmirrored
 from pdeface.photo.model import model_file
@@ -46,7 +47,7 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
     """
     pixels = _checked(photo)
     with _quiet():
-        require("mediapipe", "photo", "to find faces in photos")
+        mediapipe("to find faces in photos")
     path = model_file(model)
     with _quiet(), landmarker(path) as detect:
         for views in _views.tries(pixels):
@@ -75,7 +76,7 @@ def glances(model: PathLike | None = None) -> Iterator[Callable[[Any], list[Phot
         InputError, MissingExtraError: as for :func:`find_faces`.
     """
     with _quiet():
-        require("mediapipe", "photo", "to find faces in pictures")
+        mediapipe("to find faces in pictures")
     path = model_file(model)
     with _quiet(), landmarker(path) as detect:
 
@@ -101,7 +102,7 @@ def _checked(photo: Any) -> Pixels:
 @contextmanager
 def landmarker(model: Path) -> Iterator[Any]:
     """A function from (h, w, 3) pixels to MediaPipe's result."""
-    import mediapipe
+    engine = mediapipe("to find faces in photos")
     from mediapipe.tasks.python import BaseOptions, vision
 
     try:
@@ -120,7 +121,7 @@ def landmarker(model: Path) -> Iterator[Any]:
 
     def detect(pixels: Pixels) -> Any:
         data = np.ascontiguousarray(pixels)
-        image = mediapipe.Image(image_format=mediapipe.ImageFormat.SRGB, data=data)
+        image = engine.Image(image_format=engine.ImageFormat.SRGB, data=data)
         return landmarker.detect(image)
 
     try:

@@ -7,6 +7,7 @@ lips that are shut. Both are filled from the skin around and get a fine dark lin
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,18 +53,31 @@ def clean_margins(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """
     height, width = texture.shape[:2]
     u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
-    colours = texture.astype(np.float32)
-    for opening in openings():
-        band = _MOUTH if opening.name == "mouth" else _EYE
+    result = texture.copy()
+
+    def clean(opening: Opening) -> None:
         rows, columns = _window(opening, u, v)
-        part = colours[rows, columns]
-        above, below = _distances(opening, u[rows], v[columns])
-        part[...] = _filled(part, above, below, _ends(opening, v[columns], _BEYOND), band)
-        ends = _ends(opening, v[columns], 0.0)
-        for away, line, dark in zip((above, below), band.line, band.dark, strict=True):
-            shade = dark * ends * np.exp(-((np.maximum(away, 0.0) / line) ** 2)) * (away >= 0.0)
-            part *= 1.0 - shade[..., None]
-    return np.asarray(np.clip(np.rint(colours), 0, 255), dtype=np.uint8)
+        part = texture[rows, columns].astype(np.float32)
+        part = _cleaned(part, opening, u[rows], v[columns])
+        result[rows, columns] = np.clip(np.rint(part), 0, 255)
+
+    with ThreadPoolExecutor() as pool:  # numpy lets threads run
+        list(pool.map(clean, openings()))
+    return result
+
+
+def _cleaned(
+    part: NDArray[np.float32], opening: Opening, u: FloatArray, v: FloatArray
+) -> NDArray[np.float32]:
+    """The part of the texture around an opening, filled beside it and dark along its lines."""
+    band = _MOUTH if opening.name == "mouth" else _EYE
+    above, below = _distances(opening, u, v)
+    part = _filled(part, above, below, _ends(opening, v, _BEYOND), band)
+    ends = _ends(opening, v, 0.0)
+    for away, line, dark in zip((above, below), band.line, band.dark, strict=True):
+        shade = dark * ends * np.exp(-((np.maximum(away, 0.0) / line) ** 2)) * (away >= 0.0)
+        part *= 1.0 - shade[..., None].astype(np.float32)
+    return part
 
 
 def _window(opening: Opening, u: FloatArray, v: FloatArray) -> tuple[slice, slice]:

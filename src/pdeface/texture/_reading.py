@@ -45,7 +45,9 @@ class PhotoReader:
                 Image.fromarray(np.ascontiguousarray(part[..., :3])).resize(size, way)
             )
             alpha = np.asarray(Image.fromarray(np.ascontiguousarray(alpha)).resize(size, way))
-        self._pixels = np.ascontiguousarray(np.dstack([part[..., :3], alpha]))
+        pixels = np.ascontiguousarray(np.dstack([part[..., :3], alpha]))
+        # A pixel's four bytes are fetched as one number.
+        self._pixels = pixels.view(np.uint32)[..., 0]
         self._corner = np.array([left, top], np.float32)
         self._scale = np.array(size, np.float32) / (right - left, bottom - top)
         self._photo_size = limit
@@ -68,10 +70,13 @@ class PhotoReader:
         np.clip(at, 0.0, np.array([width - 1.001, height - 1.001], np.float32), out=at)
         first = at.astype(np.int32)
         x, y = (at - first).T[:, :, None]
-        flat = self._pixels.reshape(-1, 4)
-        index = first[:, 1] * width + first[:, 0]
-        upper = _between(flat[index], flat[index + 1], x)
-        return _between(upper, _between(flat[index + width], flat[index + width + 1], x), y)
+        flat, index = self._pixels.ravel(), first[:, 1] * width + first[:, 0]
+
+        def fetched(step: int) -> Pixels:
+            return flat[index + step].view(np.uint8).reshape(-1, 4)
+
+        upper = _between(fetched(0), fetched(1), x)
+        return _between(upper, _between(fetched(width), fetched(width + 1), x), y)
 
 
 def _between(one: NDArray[Any], other: NDArray[Any], share: FloatArray) -> FloatArray:
