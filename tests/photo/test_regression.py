@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("scipy", reason="needs the extra 'template'")
 
 from pdeface.photo import portrait_face
-from pdeface.photo.build import learning
+from pdeface.photo.build import jointly, learning
 from pdeface.photo.build.learning import Rows, learn, mirror_signs, write
 from pdeface.photo.mirrors import partners
 from pdeface.photo.regression import (
@@ -21,6 +21,7 @@ from pdeface.photo.regression import (
     levelled,
     regressors,
 )
+from pdeface.photo.traits import Reading, traits_of
 
 
 def test_what_ships_has_the_shapes_it_says() -> None:
@@ -29,8 +30,8 @@ def test_what_ships_has_the_shapes_it_says() -> None:
     assert known.mean.shape == (478, 3)
     assert known.modes.shape == (ways, 3 * 478)
     inputs = regressors(np.zeros((1, ways)), np.zeros((1, others)))
-    assert known.readout.shape == (2, inputs.shape[1], 50)
-    assert known.variance.shape == known.common.shape == (50, 50)
+    assert known.readout.shape == (2, 2, inputs.shape[1], 50)
+    assert known.variance.shape == known.common.shape == (2, 50, 50)
     assert np.linalg.eigvalsh(known.variance).min() > 0.0
 
 
@@ -69,27 +70,59 @@ def test_a_mirrored_photo_is_of_the_mirrored_person() -> None:
     face, other = portrait_face(), partners(learnt().mean)
     scores = {n.replace("Left", "-").replace("Right", "Left").replace("-", "Right"): v
               for n, v in face.scores.items()}  # fmt: skip
-    image = replace(face, landmarks=face.landmarks[other] * (-1.0, 1.0, 1.0), scores=scores)
-    found, mirrored = (expected_identity([f], [None]) for f in (face, image))
-    np.testing.assert_allclose(mirrored, found * mirror_signs(), atol=0.05)
+    marks = face.landmarks[other] * (-1.0, 1.0, 1.0)
+    assert face.traits is not None
+    for traits in (None, face.traits):
+        turned = None if traits is None else traits * mirror_signs()
+        image = replace(face, landmarks=marks, scores=scores, traits=turned)
+        own = replace(face, traits=traits)
+        found, mirrored = (expected_identity([f], [None]) for f in (own, image))
+        np.testing.assert_allclose(mirrored, found * mirror_signs(), atol=0.05)
 
 
-def test_what_depends_on_landmarks_linearly_is_learnt(monkeypatch, tmp_path) -> None:
-    """From people whose landmarks tell six of their weights, of people kept out."""
+def test_traits_are_added_to_what_landmarks_say_beside_them() -> None:
+    face = portrait_face()
+    assert face.traits is not None
+    one, other = (
+        expected_identity([replace(face, traits=traits)], [None])
+        for traits in (face.traits, face.traits + np.eye(50)[3])
+    )
+    np.testing.assert_allclose(other - one, np.eye(50)[3], atol=1e-9)
+    without = replace(face, traits=None)
+    np.testing.assert_allclose(
+        expected_identity([face, without], [None, None]),
+        expected_identity([without, without], [None, None]),
+    )
+
+
+def test_what_depends_on_features_linearly_is_learnt(monkeypatch, tmp_path) -> None:
+    """Landmarks tell six weights of people kept out, an inner layer of twenty values four more."""
     rng = np.random.default_rng(0)
     monkeypatch.setattr(learning, "RIDGE", 1e-4)
+    monkeypatch.setattr(learning, "WAYS", 6)
+    monkeypatch.setattr(jointly, "COST", 1e-4)
     identity = rng.normal(size=(600, 50))
+    identity[300:] = identity[:300] * mirror_signs()
     ways = rng.normal(size=(6, 3 * 478)) / 500.0
     others = rng.normal(size=(600, 58))
-    rows = Rows(identity[:, :6] @ ways, others, identity, np.arange(600) // 2)
-    monkeypatch.setattr(learning, "WAYS", 6)
-    found, held = learn(rows, learnt().mean)
-    told = 1.0 - ((held - identity) ** 2).mean(axis=0)
-    assert told[:6].min() > 0.95
-    assert told[6:].max() < 0.1
+    inner = np.repeat((identity[:, 6:10] @ rng.normal(size=(4, 20)))[:, None], 2, axis=1)
+    rows = Rows(identity[:, :6] @ ways, others, identity, np.arange(600) % 300 // 2, inner)
+    found, reading, held = learn(rows, learnt().mean)
+    half = identity[:300]
+    alone, beside = (1.0 - ((each - half) ** 2).mean(axis=0) / (half**2).mean(axis=0)
+                     for each in held)  # fmt: skip
+    assert alone[:6].min() > 0.95
+    assert alone[6:].max() < 0.1
+    assert beside[:10].min() > 0.95
+    assert beside[10:].max() < 0.1
     write(tmp_path / "identity.npz", found)
-    with np.load(tmp_path / "identity.npz") as file:
-        assert set(file.files) == set(Learnt._fields)
+    write(tmp_path / "traits.npz", reading)
+    for name, kind in (("identity", Learnt), ("traits", Reading)):
+        with np.load(tmp_path / f"{name}.npz") as file:
+            assert set(file.files) == set(kind._fields)
+    read = traits_of(np.stack([inner[:300, 0], inner[300:, 0]], axis=1), reading)
+    left = half[:, 6:10] - read[:, 6:10]
+    assert (left.var(axis=0) / half[:, 6:10].var(axis=0)).max() < 0.05
 
 
 def test_a_longer_lens_is_told_by_its_feature_alone() -> None:

@@ -26,6 +26,7 @@ def portrait_face() -> PhotoFace:
         scores=stored["scores"],
         pose=np.array(stored["pose"], dtype=np.float64),
         image_size=(width, height),
+        traits=np.array(stored["traits"], dtype=np.float64),
     )
 
 
@@ -33,10 +34,13 @@ def write_face(face: PhotoFace, path: Path) -> None:
     """Write a found face as :func:`portrait_face` reads it."""
     from pdeface.files import atomic_write
 
+    if face.traits is None:
+        raise ValueError("a face to keep must have traits")
     stored = {
         "image_size": list(face.image_size),
         "pose": face.pose.round(6).tolist(),
         "scores": {name: round(score, 4) for name, score in face.scores.items()},
+        "traits": face.traits.round(_DIGITS).tolist(),
         "landmarks": face.landmarks.round(_DIGITS).tolist(),
     }
     lines = json.dumps(stored, indent=None, separators=(",", ":")).replace("],[", "],\n[")

@@ -32,12 +32,15 @@ class PhotoFace:
         pose: (4, 4) from MediaPipe's canonical face to the camera, centimetres; x to the right,
             y up, z towards the camera.
         image_size: (width, height) of the photo.
+        traits: (50,) the identity that the detector's network suggests beside the landmarks
+            (:mod:`pdeface.photo.traits`); None where it was not asked.
     """
 
     landmarks: FloatArray
     scores: Mapping[str, float]
     pose: FloatArray
     image_size: tuple[int, int]
+    traits: FloatArray | None = None
 
     @property
     def size(self) -> float:

@@ -7,6 +7,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,8 @@ from pdeface.photo.engine import mediapipe
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.mirrors import evened, unmirrored
 from pdeface.photo.model import model_file
+from pdeface.photo.network import Network
+from pdeface.photo.traits import find_traits
 
 __all__ = ["faces_both_ways", "faces_in", "find_faces", "glances", "landmarker"]
 
@@ -35,7 +38,7 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
 
     The whole photo and its halves are looked at first. Where that shows nothing, so are the photo
     with a margin (for a face that fills it) and then its quarters (for a small face). What is found
-    is looked at again from near by, and in the mirror as well.
+    is looked at again from near by, and in the mirror as well, and each has its traits.
 
     Args:
         photo: (H, W, 3 or 4) uint8, upright, as :func:`pdeface.texture.read_photo` returns it.
@@ -55,8 +58,13 @@ def find_faces(photo: Any, model: PathLike | None = None) -> list[PhotoFace]:
             # Many looks find many things. A face is one also when it is looked at alone.
             closer = [_views.around(face, pixels) for face in _views.distinct(faces)]
             if faces := _views.distinct(faces_both_ways(closer, detect, pixels.shape)):
-                return faces
+                return _with_traits(faces, pixels, path)
     return []
+
+
+def _with_traits(faces: Iterable[PhotoFace], photo: Pixels, model: Path) -> list[PhotoFace]:
+    network = Network(model)
+    return [replace(f, traits=find_traits(network, photo, f.landmarks)) for f in faces]
 
 
 @contextmanager

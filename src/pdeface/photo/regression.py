@@ -3,7 +3,8 @@
 The landmarks, with their depths, are turned, scaled and moved onto the mean of all faces. The
 principal ways in which they then differ from it, the same by how far the head is turned, the pose,
 the detector's scores and, where the focal length is known, how near the camera is, are mapped to
-weights of the identity modes by a ridge regression. What the detector gets wrong in the same way
+weights of the identity modes by a ridge regression, together with the values of an inner layer of
+the detector's network (:mod:`pdeface.photo.traits`). What the detector gets wrong in the same way
 every time is so taken out, and what it cannot see is left at the mean. The numbers in
 ``data/identity.npz`` were learnt by ``python -m pdeface.photo.build identity``.
 """
@@ -52,10 +53,11 @@ class Learnt(NamedTuple):
         modes: (k, 1434) principal ways in which they differ, each over its standard deviation.
         centre, spread: (f,) mean and standard deviation of the other features: six of the pose,
             the scores by name, and how near the camera is.
-        readout: (2, r, 50) the identity by the regressors (:func:`regressors`): without and with
-            the focal length.
-        variance: (50, 50) covariance of the identity that is read out of one photo.
-        common: (50, 50) the same between what is read out of two photos of one person.
+        readout: (2, 2, r, 50) the identity by the regressors (:func:`regressors`): alone and beside
+            the traits, without and with the focal length.
+        variance: (2, 50, 50) covariance of the identity that is read out of one photo, alone and
+            beside the traits.
+        common: (2, 50, 50) the same between what is read out of two photos of one person.
     """
 
     mean: FloatArray
@@ -77,25 +79,29 @@ def learnt() -> Learnt:
 def expected_identity(faces: Sequence[PhotoFace], focals: Sequence[float | None]) -> FloatArray:
     """(50,) weights of the identity modes that are expected of a person.
 
-    Each photo says r = W x of its features x. Of n photos the mean m is taken; the person expected
-    then is V (V / n + (1 - 1 / n) C)^-1 m with the covariance V of what one photo says, and C of
-    what two say: the more photos agree, the less is left at the mean.
+    Each photo says r = W x of its features x, and t more by its traits if all have some. Of n
+    photos the mean m is taken; the person expected then is V (V / n + (1 - 1 / n) C)^-1 m with the
+    covariance V of what one photo says, and C of what two say: the more photos agree, the less is
+    left at the mean.
 
     Args:
         faces: one person's, in one or more photos.
         focals: the focal length of each photo in pixels, or None.
     """
     known, read = learnt(), []
+    beside = int(all(face.traits is not None for face in faces))
     for face, focal in zip(faces, focals, strict=True):
         shape, rest = features(face, focal, known.mean)
         ways = known.modes @ shape
         others = (rest - known.centre) / known.spread
         if focal is None:
             others[-1] = 0.0
-        read.append(regressors(ways, others) @ known.readout[int(focal is not None)])
+        told = regressors(ways, others) @ known.readout[beside, int(focal is not None)]
+        read.append(told if face.traits is None or not beside else told + face.traits)
     share = 1.0 / len(read)
-    sure = share * known.variance + (1.0 - share) * known.common
-    return np.asarray(known.variance @ np.linalg.solve(sure, np.mean(read, axis=0)))
+    variance, common = known.variance[beside], known.common[beside]
+    sure = share * variance + (1.0 - share) * common
+    return np.asarray(variance @ np.linalg.solve(sure, np.mean(read, axis=0)))
 
 
 def regressors(ways: FloatArray, others: FloatArray) -> FloatArray:

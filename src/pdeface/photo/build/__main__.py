@@ -28,6 +28,7 @@ from pdeface.photo.build.rounds import ROUNDS, sample_rounds
 from pdeface.photo.landmarker import find_faces
 from pdeface.photo.model import model_file
 from pdeface.photo.regression import IDENTITY
+from pdeface.photo.traits import TRAITS
 
 FloatArray = NDArray[np.float64]
 
@@ -42,7 +43,8 @@ def main() -> int:
     person = commands.add_parser("identity", help="which person they belong to")
     person.add_argument("heads", type=Path, help="ICT-FaceKit's folder")
     person.add_argument("-o", "--out", type=Path, default=IDENTITY, help="file to write")
-    person.add_argument("--rounds", type=int, default=ROUNDS, help="of 900 pictures each")
+    person.add_argument("--traits", type=Path, default=TRAITS, help="file of the traits to write")
+    person.add_argument("--rounds", type=int, default=ROUNDS, help="of some 400 pictures each")
     person.add_argument("--cache", type=Path, help="folder to keep what was found in, for a rerun")
     for command in (places, person):
         command.add_argument("--model", type=Path, help="MediaPipe's face_landmarker.task")
@@ -62,14 +64,16 @@ def _identity(options: argparse.Namespace) -> None:
     found = sample_rounds(options.heads, model_file(options.model), options.rounds, options.cache)
     mean = learning.mean_landmarks(found)
     rows = learning.rows_of(found, mean)
-    learnt, held = learning.learn(rows, mean)
+    learnt, reading, held = learning.learn(rows, mean)
     learning.write(options.out, learnt)
-    explained = (
-        1.0 - ((held - rows.identity)[:, :10] ** 2).sum() / (rows.identity[:, :10] ** 2).sum()
-    )
+    learning.write(options.traits, reading)
     pictures, persons = len(found["person"]), len(set(found["person"].tolist()))
     print(f"looked at {pictures} pictures of {persons} people")
-    print(f"{100 * explained:.0f} per cent of the variance of kept-out people's ten first weights")
+    truth = rows.identity[:pictures, :10]
+    for name, said in held._asdict().items():
+        explained = 1.0 - ((said[:, :10] - truth) ** 2).sum() / (truth**2).sum()
+        print(f"{name}: {100 * explained:.0f} per cent of the variance of kept-out people's ten "
+              "first weights")  # fmt: skip
 
 
 def write(path: Path, found: FloatArray, places: FloatArray) -> None:

@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 
 from pdeface.controls.measured import IDENTITIES, identities
 from pdeface.files import atomic_path
+from pdeface.photo.build.jointly import Joint, fit_jointly, folds_of
 from pdeface.photo.build.samples import Numbers
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.mirrors import ACROSS, other_side, partners
 from pdeface.photo.regression import Learnt, features, levelled, regressors, score_names
+from pdeface.photo.traits import Reading
 
-__all__ = ["Rows", "learn", "mean_landmarks", "rows_of", "write"]
+__all__ = ["Held", "Rows", "learn", "mean_landmarks", "rows_of", "write"]
 
 FloatArray = NDArray[np.float64]
 
@@ -28,7 +30,7 @@ WAYS = 100
 RIDGE = 0.05
 """What squared coefficients cost, where the features have the variance 1; by cross-validation."""
 
-FOLDS = 5
+_STORED = {"modes": np.float16, "readout": np.float16, "weights": np.int8}
 _AXES = np.array([1.0, -1.0, -1.0])
 
 
@@ -40,12 +42,21 @@ class Rows(NamedTuple):
         others: (n, f) the other features.
         identity: (n, 50) the weights to be found.
         person: (n,) whose they are.
+        inner: (n, 2, 8192) what the network makes of the picture, and of it spoiled.
     """
 
     marks: FloatArray
     others: FloatArray
     identity: FloatArray
     person: NDArray[np.int64]
+    inner: NDArray[np.floating]
+
+
+class Held(NamedTuple):
+    """(n, 50) what is said of people kept out, by landmarks alone and beside the traits."""
+
+    alone: FloatArray
+    beside: FloatArray
 
 
 def mean_landmarks(samples: Numbers) -> FloatArray:
@@ -84,7 +95,14 @@ def rows_of(samples: Numbers, mean: FloatArray) -> Rows:
             others.append(rest)
     weights = samples["identity"][:, :IDENTITIES]
     identity = np.concatenate([weights, weights * mirror_signs()])
-    return Rows(np.array(marks), np.array(others), identity, np.tile(samples["person"], 2))
+    inner = samples["inner"]
+    return Rows(
+        marks=np.array(marks),
+        others=np.array(others),
+        identity=identity,
+        person=np.tile(samples["person"], 2),
+        inner=np.concatenate([inner[:, [0, 2]], inner[:, [1, 3]]]),
+    )
 
 
 def mirror_signs() -> FloatArray:
@@ -97,8 +115,8 @@ def mirror_signs() -> FloatArray:
     return np.array(signs)
 
 
-def learn(rows: Rows, mean: FloatArray) -> tuple[Learnt, FloatArray]:
-    """The regression, and (n, 50) what it says of each sample's person without having seen them."""
+def learn(rows: Rows, mean: FloatArray) -> tuple[Learnt, Reading, Held]:
+    """The regression, the reading of traits, and what they say of people they have not seen."""
     _, sizes, ways = np.linalg.svd(rows.marks, full_matrices=False)
     modes = ways[:WAYS] / (sizes[:WAYS, None] / np.sqrt(len(rows.marks)))
     centre, spread = rows.others.mean(axis=0), rows.others.std(axis=0)
@@ -107,12 +125,26 @@ def learn(rows: Rows, mean: FloatArray) -> tuple[Learnt, FloatArray]:
     unfocused = others.copy()
     unfocused[:, -1] = 0.0
     full, blind = (regressors(rows.marks @ modes.T, each) for each in (others, unfocused))
-    readout = np.array([_ridge(x, rows.identity) for x in (blind, full)])
-    held = np.zeros_like(rows.identity)
-    for fold in range(FOLDS):
-        out = rows.person % FOLDS == fold
-        held[out] = full[out] @ _ridge(full[~out], rows.identity[~out])
-    return Learnt(mean, modes, centre, spread, readout, *_agreement(held, rows)), held
+    alone = np.zeros_like(rows.identity)
+    for out in folds_of(rows.person):
+        alone[out] = full[out] @ _ridge(full[~out], rows.identity[~out])
+    joint, beside = fit_jointly(rows.inner, full, rows.identity, rows.person)
+    half, signs = len(beside) // 2, mirror_signs()
+    held = Held(alone[:half], 0.5 * (beside[:half] + signs * beside[half:]))
+    # How a mirror changes the regressors: traits are means of both sides, and so are these.
+    mirror = np.linalg.lstsq(full[:half], full[half:], rcond=None)[0]
+    even = 0.5 * (joint.readout + mirror @ joint.readout * signs)
+    readout = [[_ridge(x, rows.identity) for x in (blind, full)], [even] * 2]
+    agreements = zip(*(_agreement(each, rows.person) for each in held), strict=True)
+    variance, common = map(np.array, agreements)
+    known = Learnt(mean, modes, centre, spread, np.array(readout), variance, common)
+    return known, _reading(joint, signs), held
+
+
+def _reading(joint: Joint, signs: FloatArray) -> Reading:
+    scale = np.abs(joint.weights).max(axis=0) / 127.0
+    weights = np.rint(joint.weights / scale).astype(np.int8)
+    return Reading(joint.centre, joint.spread, weights, scale, signs)
 
 
 def _ridge(x: FloatArray, y: FloatArray) -> FloatArray:
@@ -121,21 +153,19 @@ def _ridge(x: FloatArray, y: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.solve(x.T @ x + np.diag(cost + 1e-9), x.T @ y))
 
 
-def _agreement(held: FloatArray, rows: Rows) -> tuple[FloatArray, FloatArray]:
+def _agreement(held: FloatArray, person: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
     """(50, 50) covariances of what is read out of one photo, and between two of one person."""
-    half = len(held) // 2
     variance = held.T @ held / len(held)
-    pairs = [(i, j) for i in range(half) for j in (i + 1, i + 2)
-             if j < half and rows.person[i] == rows.person[j]]  # fmt: skip
+    pairs = [(i, j) for i in range(len(held)) for j in (i + 1, i + 2)
+             if j < len(held) and person[i] == person[j]]  # fmt: skip
     one, other = np.array(pairs).T
     common = held[one].T @ held[other] / len(one)
     return variance, 0.5 * (common + common.T)
 
 
-def write(path: Path, learnt: Learnt) -> None:
+def write(path: Path, learnt: Learnt | Reading) -> None:
     """Write what ships."""
-    halves = {"modes": np.float16}
-    numbers = {name: value.astype(halves.get(name, np.float32))
+    numbers = {name: value.astype(_STORED.get(name, np.float32))
                for name, value in learnt._asdict().items()}  # fmt: skip
     with atomic_path(path) as temporary, open(temporary, "wb") as file:
         np.savez_compressed(file, **numbers)

@@ -11,8 +11,8 @@ from pdeface.photo.build.samples import Numbers, sample
 
 __all__ = ["ROUNDS", "sample_rounds"]
 
-ROUNDS = 8
-_PICTURES, _OFTEN = 900, 3
+ROUNDS = 10
+_PICTURES, _OFTEN, _OF_THE_SAME = 400, 3, 450
 _PAIRED = 2
 """In the first rounds each person is seen three times, to learn what photos agree on; after them
 once, because people teach more than pictures."""
@@ -24,7 +24,7 @@ def sample_rounds(heads: Path, model: Path, rounds: int, cache: Path | None) -> 
     Args:
         heads: ICT-FaceKit's folder.
         model: MediaPipe's face landmarker.
-        rounds: how many, of 900 pictures each.
+        rounds: how many, of some 400 pictures each.
         cache: a folder in which rounds are kept and found, or None.
     """
     parts = [_round(heads, model, number, cache) for number in range(1, rounds + 1)]
@@ -39,8 +39,9 @@ def _round(heads: Path, model: Path, number: int, cache: Path | None) -> Numbers
     if path is not None and path.is_file():
         with np.load(path, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
-    views = _OFTEN if number <= _PAIRED else 1
-    found = sample(heads, model, _PICTURES // views, views, seed=number)
+    often = number <= _PAIRED
+    people, views = (_OF_THE_SAME // _OFTEN, _OFTEN) if often else (_PICTURES, 1)
+    found = sample(heads, model, people, views, seed=number)
     if path is not None:
         with atomic_path(path) as temporary, open(temporary, "wb") as file:
             np.savez(file, **found)  # type: ignore[arg-type]

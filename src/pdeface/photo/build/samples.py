@@ -13,8 +13,10 @@ from pdeface.photo import _views
 from pdeface.photo.build.heads import HeadSpace
 from pdeface.photo.build.scenes import Scene, photograph, random_scene
 from pdeface.photo.build.skins import random_skin
+from pdeface.photo.build.spoiling import spoiled
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.landmarker import faces_both_ways, faces_in, landmarker
+from pdeface.photo.network import Network, square
 from pdeface.pictures.raster_vtk import Canvas
 
 __all__ = ["random_expression", "sample"]
@@ -24,6 +26,7 @@ Numbers = dict[str, NDArray[Any]]
 
 _EXPRESSIVE = 0.65
 _SMILE = "mouthSmile", "cheekSquint"
+_SPOILS = 7  # besides a round's seed
 
 
 def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> Numbers:
@@ -38,17 +41,21 @@ def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> 
 
     Returns:
         Arrays with a row a picture: ``person``, ``identity`` (100 weights), ``expression`` (53),
-        ``landmarks`` (478, 3), ``scores`` (52), ``pose`` (4, 4), ``focal`` (pixels), and
-        ``rotation`` (3, 3) and ``eye`` (3,), the camera's axes and place.
+        ``landmarks`` (478, 3), ``scores`` (51), ``pose`` (4, 4), ``focal`` (pixels), and ``inner``
+        (4, 8192): what the network makes of the face, of its mirror image, and of both spoiled.
     """
     rows: dict[str, list[Any]] = {}
+    network = Network(model)
     with landmarker(model) as detect:
-        for number, face, truth in _pictures(HeadSpace(folder), detect, count, views, seed):
+        pictures = _pictures(HeadSpace(folder), detect, count, views, seed)
+        for row, (number, picture, face, truth) in enumerate(pictures):
+            rng = np.random.default_rng([seed, row, _SPOILS])
             found = {
                 "person": number,
                 "landmarks": face.landmarks.astype(np.float32),
                 "scores": np.array([face.scores[name] for name in sorted(face.scores)]),
                 "pose": face.pose,
+                "inner": _inner(network, square(picture, face.landmarks), rng),
                 **truth,
             }
             for name, value in found.items():
@@ -58,7 +65,7 @@ def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> 
 
 def _pictures(
     space: HeadSpace, detect: Any, count: int, views: int, seed: int
-) -> Iterator[tuple[int, PhotoFace, Numbers]]:
+) -> Iterator[tuple[int, NDArray[np.uint8], PhotoFace, Numbers]]:
     canvas = Canvas()
     for number in range(count):
         rng = np.random.default_rng([seed, number])
@@ -70,7 +77,17 @@ def _pictures(
             picture = photograph(space.head(identity, expression), skin, scene, canvas)
             face = found_in(picture, detect)
             if face is not None:
-                yield number, face, {"identity": identity, "expression": expression, **_seen(scene)}
+                truth = {"identity": identity, "expression": expression, "focal": _focal(scene)}
+                yield number, picture, face, truth
+
+
+def _inner(
+    network: Network, seen: NDArray[np.uint8], rng: np.random.Generator
+) -> NDArray[np.float16]:
+    """(4, 8192) values for a square, its mirror image, and both of it spoiled."""
+    both = [seen, spoiled(seen, rng)]
+    squares = [np.ascontiguousarray(p) for each in both for p in (each, each[:, ::-1])]
+    return network.inner(squares).astype(np.float16)
 
 
 def found_in(picture: NDArray[np.uint8], detect: Any) -> PhotoFace | None:
@@ -99,8 +116,6 @@ def random_expression(
     return np.array(list(weights.values()))
 
 
-def _seen(scene: Scene) -> Numbers:
-    camera = scene.camera
-    focal = 0.5 * scene.size[1] / np.tan(0.5 * np.radians(camera.fov))
-    axes = np.stack([camera.right, camera.up, camera.backward])
-    return {"focal": np.array(focal), "rotation": axes, "eye": camera.position}
+def _focal(scene: Scene) -> NDArray[np.float64]:
+    """Of its camera, pixels."""
+    return np.array(0.5 * scene.size[1] / np.tan(0.5 * np.radians(scene.camera.fov)))

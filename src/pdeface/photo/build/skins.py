@@ -25,6 +25,9 @@ _LIGHT, _DARK = np.array([0.93, 0.76, 0.67]), np.array([0.30, 0.19, 0.14])
 _PORTRAIT = 0.35
 """Share of the skins that are the bundled portrait's, in another tone."""
 
+_WARP, _BEARDED = 0.006, 0.25
+"""How far a skin is warped, of its size, and the share of those with a beard."""
+
 _LAST = PAPER_ROWS - 1
 _U, _V = np.meshgrid((np.arange(_SIZE) + 0.5) / _SIZE, np.pi * (np.arange(_SIZE) + 0.5) / _SIZE,
                      indexing="ij")  # fmt: skip
@@ -53,8 +56,10 @@ def random_skin(rng: np.random.Generator) -> Skin:
     dark = np.clip(tone * rng.uniform(0.12, 0.75) + rng.normal(0.0, 0.02, 3), 0.02, 0.9)
     if rng.random() < _PORTRAIT:
         image = tone * _portrait(rng.random() < 0.5) ** rng.uniform(0.6, 1.2)
+        image = _warped(rng, image)
     else:
-        image = _painted(rng, tone, dark)
+        image = _warped(rng, _painted(rng, tone, dark))
+    image = _weathered(rng, image, dark)
     edge = np.minimum.reduce([_U, 1.0 - _U, _V / np.pi, 1.0 - _V / np.pi])
     inside = np.clip(edge / 0.07, 0.0, 1.0)[..., None]
     pixels = np.clip(inside * image + (1.0 - inside) * tone, 0.0, 1.0)
@@ -84,6 +89,74 @@ def _painted(rng: np.random.Generator, tone: FloatArray, dark: FloatArray) -> Fl
     ):
         image = image + mask[..., None] * (color - image)
     return image
+
+
+def _warped(rng: np.random.Generator, image: FloatArray) -> FloatArray:
+    """The image with everything a little elsewhere, smoothly."""
+    places = []
+    for axis, size in ((_U, 1.0), (_V, np.pi)):
+        waves = rng.uniform(-9.0, 9.0, (4, 2))
+        moved = sum(rng.normal(0.0, _WARP) * np.sin(a * _U + b * _V) for a, b in waves)
+        places.append(np.clip(_SIZE * (axis / size + moved) - 0.5, 0.0, _SIZE - 1.001))
+    row, column = (place.astype(int) for place in places)
+    y, x = places[0] - row, places[1] - column
+    upper = image[row, column] + x[..., None] * (image[row, column + 1] - image[row, column])
+    row += 1
+    lower = image[row, column] + x[..., None] * (image[row, column + 1] - image[row, column])
+    return np.asarray(upper + y[..., None] * (lower - upper))
+
+
+def _weathered(rng: np.random.Generator, image: FloatArray, dark: FloatArray) -> FloatArray:
+    """The image with what skins have: grain, blush, shadows under eyes, folds, and stubble."""
+    for cells in (10, 24, 60, 150):
+        coarse = rng.normal(0.0, rng.uniform(0.0, 0.035), (cells, cells))
+        image = image * (1.0 + _enlarged(coarse))[..., None]
+    for mask, most in ((_under_eyes(rng), 0.35), (_folds(rng), 0.35), (_cheeks(rng), 0.25)):
+        color = (
+            image * (1.0, rng.uniform(0.6, 0.95), rng.uniform(0.6, 0.95)) * rng.uniform(0.6, 1.0)
+        )
+        image = image + (rng.uniform(0.0, most) * mask)[..., None] * (color - image)
+    if rng.random() < _BEARDED:
+        grain = 0.6 + 0.4 * rng.random(_U.shape)
+        beard = (rng.uniform(0.1, 0.9) * _beard(rng) * grain)[..., None]
+        image = image + beard * (rng.uniform(0.5, 1.0) * dark - image)
+    return image
+
+
+def _enlarged(coarse: FloatArray) -> FloatArray:
+    """(H, W) bilinear."""
+    at = np.linspace(0.0, len(coarse) - 1.001, _SIZE)
+    first, share = at.astype(int), at % 1.0
+    rows = coarse[first] + share[:, None] * (coarse[first + 1] - coarse[first])
+    return np.asarray(rows[:, first] + share * (rows[:, first + 1] - rows[:, first]))
+
+
+def _under_eyes(rng: np.random.Generator) -> FloatArray:
+    u = ROWS["lower_lid_margin"] / _LAST + rng.uniform(0.015, 0.035)
+    away = np.abs(np.abs(_V - np.pi / 2) - rng.uniform(0.5, 0.65))
+    return np.exp(-(((_U - u) / 0.02) ** 2) - (away / 0.2) ** 2)
+
+
+def _folds(rng: np.random.Generator) -> FloatArray:
+    """From beside the nose to beside the mouth."""
+    low, high = 0.5, rng.uniform(0.66, 0.76)
+    line = rng.uniform(0.26, 0.34) + rng.uniform(0.5, 1.0) * (_U - low)
+    off = (np.abs(_V - np.pi / 2) - line) / rng.uniform(0.015, 0.05)
+    return np.exp(-(off**2)) * _soft(_U - low, 0.04) * _soft(high - _U, 0.05)
+
+
+def _cheeks(rng: np.random.Generator) -> FloatArray:
+    away = np.abs(_V - np.pi / 2) - rng.uniform(0.5, 0.75)
+    return np.exp(-(((_U - rng.uniform(0.45, 0.58)) / 0.09) ** 2) - (away / 0.25) ** 2)
+
+
+def _beard(rng: np.random.Generator) -> FloatArray:
+    """The chin and the jaw up to a line, and the upper lip in some; not the lips."""
+    away = np.abs(_V - np.pi / 2)
+    line = rng.uniform(0.72, 0.82) - rng.uniform(0.05, 0.3) * np.clip(away - 0.35, 0.0, None)
+    moustache = (np.abs(_U - 0.615) < 0.03) & (away < 0.33) & (rng.random() < 0.7)
+    lips = (np.abs(_U - 0.685) < 0.055) & (away < 0.3)
+    return np.asarray(np.maximum(_soft(_U - line, 0.04), 0.9 * moustache) * ~lips)
 
 
 def _lips(rng: np.random.Generator) -> FloatArray:
