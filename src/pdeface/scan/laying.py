@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pdeface.scan.alignment import Landmarks
 from pdeface.scan.fields import enlarged, normals, smoothed
 from pdeface.scan.nearest import Target
+from pdeface.scan.nostrils import fitted_nostrils
 from pdeface.scan.surface import Scan
 from pdeface.template import column_v, row_u
 
@@ -49,6 +50,9 @@ _STAGES = (
     Stage(0.5, 4.0e-3, 3, 2),
     Stage(0.28, 3.0e-3, 3, 2),
 )
+_NOSTRILS = 3
+"""The stage before which the depth of the nostrils is found."""
+
 _LAST = Stage(0.14, 2.0e-3, 2, 1)
 
 _ROW = 6.7e-3
@@ -88,7 +92,9 @@ def lay(
     target = Target(scan, _BREADTH)
     bend = _ROUND if rounded else 0.0
     points, known = start.copy(), _known(*start.shape[:2])
-    for stage in _STAGES:
+    for number, stage in enumerate(_STAGES):
+        if number == _NOSTRILS:
+            points = fitted_nostrils(points, target)
         for _ in range(stage.rounds):
             points = points + _move(points, stage, target, landmarks, known, _SLIDE, bend)
     detailed = _LAST.width * _ROW > _DETAIL * scan.spacing
