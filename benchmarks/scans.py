@@ -106,7 +106,11 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("data", type=Path)
     parser.add_argument("--people", type=int, default=6, help="random heads of ICT-FaceKit")
     parser.add_argument("--sheet", type=Path, help="picture of scans and fits to draw")
-    parser.add_argument("--round", action="store_true", help="fit the triangles' round surface")
+    parser.add_argument(
+        "--round",
+        action=argparse.BooleanOptionalAction,
+        help="fit the triangles' round surface, or their flat faces, whatever their size",
+    )
     options = parser.parse_args(arguments)
     subjects = [
         *ict_heads(options.data / "ict_facekit", options.people),

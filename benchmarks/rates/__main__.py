@@ -87,7 +87,7 @@ def main(arguments: list[str] | None = None) -> None:
         files[group], smooth = [], []
         for subject in subjects:
             began = time.perf_counter()
-            fit = fit_scan(subject.scan, LEVELS[-1])
+            fit = fit_scan(subject.scan, LEVELS[-1], rounded=False)
             truth = front_of(fit)
             smooth.append(coefficients(fit, truth))
             files[group].append(rates(fit, truth))

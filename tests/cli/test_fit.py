@@ -41,6 +41,17 @@ def test_a_scan_becomes_a_face(files, tmp_path: Path, pdeface_command) -> None:
     assert picture.stat().st_size > 100_000
 
 
+@pytest.mark.parametrize(("words", "said"), [([], True), (["--no-round"], False)])
+def test_coarse_triangles_are_told_of(words, said, files, tmp_path, pdeface_command) -> None:
+    mesh = pdeface.random(3, "55x92").mesh(37, 34, openings="none")
+    scan = tmp_path / "coarse.ply"
+    trimesh.Trimesh(1e3 * mesh.vertices, mesh.triangles, process=False).export(scan)
+    out = tmp_path / "face.pdeface"
+    done = pdeface_command("fit", scan, "--landmarks", files[1], "-o", out, *words)
+    assert done.status == 0, done.err
+    assert ("mm wide: fitted the curved surface" in done.out) == said
+
+
 @pytest.mark.parametrize(
     ("words", "says"),
     [

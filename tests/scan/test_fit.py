@@ -12,6 +12,8 @@ from pdeface.scan import Landmarks, fit_scan, make_scan, measure, texture_of
 from pdeface.scan.alignment import align
 from pdeface.template import row_u
 
+from .conftest import scanned
+
 LEVELS = {(28, 46): (0.38, 0.13, 4.5), (55, 92): (0.20, 0.06, 3.0), (109, 184): (0.10, 0.02, 2.2)}
 
 
@@ -101,6 +103,19 @@ def test_a_cloud_is_fitted_like_a_mesh(known) -> None:
     cloud = make_scan(known.scan.vertices)
     found = fit_scan(cloud, landmarks=known.landmarks, units="m")
     assert measure(found).to_scan.rms < 0.25
+
+
+def test_coarse_triangles_are_fitted_round(known, fitted) -> None:
+    coarse = scanned(known.face, 37, 34)
+    words = {"landmarks": coarse.landmarks, "units": "m"}
+    found = fit_scan(coarse.scan, (109, 184), **words)
+    flat = fit_scan(coarse.scan, (109, 184), rounded=False, **words)
+    assert found.rounded
+    assert not flat.rounded
+    assert not fitted.rounded
+    # The curved surface goes through the vertices; the flat faces' cuts their corners.
+    assert measure(found).to_face.median < 0.8 * measure(flat).to_face.median
+    assert measure(flat).to_scan.median < measure(found).to_scan.median
 
 
 def test_colours_come_along(known) -> None:

@@ -65,9 +65,11 @@ def fit(
                      "heights along the normals, to write: a .png of 16 bits (docs/scans.md)."),
     ] = None,
     rounded: Annotated[
-        bool, typer.Option("--round", help="Fit the curved surface that the triangles of a coarse "
-                           "scan stand for, not their flat faces."),
-    ] = False,
+        bool | None,
+        typer.Option("--round/--no-round", show_default="for triangles of 4 mm and more",
+                     help="Fit the curved surface that a scan's triangles stand for, not their "
+                     "flat faces."),
+    ] = None,
     model: ModelOption = None,
     texture: Annotated[
         bool, typer.Option("--texture/--no-texture", help="Carry the scan's colours over."),

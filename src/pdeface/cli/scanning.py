@@ -24,7 +24,7 @@ class Fitting(NamedTuple):
     level: tuple[int, int]
     units: Literal["m", "cm", "mm"] | None
     landmarks: Path | None
-    rounded: bool
+    rounded: bool | None
     model: Path | None
     texture: bool
     mesh: tuple[int, int]
@@ -53,6 +53,11 @@ def fit_file(
         )
     if found.unit is None:
         report.warn("the scan's unit is none of m, cm and mm; took its eyes to be 63 mm apart")
+    if found.rounded and how.rounded is None:
+        report.say(
+            f"the scan's triangles are {1e3 * found.scan.spacing:.0f} mm wide: fitted the curved "
+            "surface that they stand for (--no-round fits their flat faces)"
+        )
     with report.step("measuring the fit"):
         measures = measure(found)
     face = found.face.with_name(scan.stem)

@@ -63,6 +63,11 @@ class ScanFit:
         """Share of the face's samples that the scan has."""
         return float(self.registered.trust.mean())
 
+    @property
+    def rounded(self) -> bool:
+        """Whether the curved surface is fitted that the scan's triangles stand for."""
+        return self.registered.rounded
+
     def at_level(self, curves: int, points: int) -> ScanFit:
         """The best fit of so many curves of so many points to the same samples."""
         changed = self.face.with_curves(fit_level(self.registered.points, (curves, points)))
@@ -76,7 +81,7 @@ def fit_scan(
     *,
     landmarks: Landmarks | None = None,
     units: Units | None = None,
-    rounded: bool = False,
+    rounded: bool | None = None,
     model: PathLike | None = None,
     progress: Progress | None = None,
 ) -> ScanFit:
@@ -89,7 +94,7 @@ def fit_scan(
         units: of the scan. None for those of m, cm and mm in which its eyes are as far apart as a
             person's, or, if there are none, for such a scale that they are 63 mm apart.
         rounded: fit the curved surface that a coarse scan's triangles stand for, with whose normals
-            it is shaded, instead of their flat faces.
+            it is shaded, instead of their flat faces; None for that from triangles of 4 mm on.
         model: MediaPipe's model; None for the one that :func:`pdeface.photo.model_file` finds.
         progress: called with a line of text before each step.
 

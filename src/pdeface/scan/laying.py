@@ -57,8 +57,8 @@ _LAST = Stage(0.14, 2.0e-3, 2, 1)
 
 _ROW = 6.7e-3
 _DETAIL = 0.25
-"""Metres between rows of the paper; and the share of a scan's spacing below which widths of the
-smoothing follow its facets, not its shape."""
+"""Metres between rows of the paper; and the share of a cloud's spacing below which widths of the
+smoothing follow its points, not its shape."""
 
 _BREADTH = 4.0e-3
 _SLIDE = 0.2
@@ -97,7 +97,7 @@ def lay(
             points = fitted_nostrils(points, target)
         for _ in range(stage.rounds):
             points = points + _move(points, stage, target, landmarks, known, _SLIDE, bend)
-    detailed = _LAST.width * _ROW > _DETAIL * scan.spacing
+    detailed = not scan.is_cloud or _LAST.width * _ROW > _DETAIL * scan.spacing
     for _ in range(_LAST.rounds if detailed else 0):
         points = points + _move(points, _LAST, target, landmarks, known, 0.0, bend)
     facing = normals(points).reshape(-1, 3)

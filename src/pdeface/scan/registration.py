@@ -32,6 +32,9 @@ _WORTH = 0.05
 """What one sample of the surface counts in the identity: neighbours err together."""
 
 _LANDMARK = 0.02
+_COARSE = 4.0e-3
+"""Metres between vertices from which on flat triangles would show as facets."""
+
 _MANY, _COARSEST = 100_000, 1.0e-3
 """Vertices from which on identity is found by one of them a cube of so many metres."""
 
@@ -46,6 +49,7 @@ class Registered:
         weights: (modes,) identity.
         points: (U, V, 3) the grid on the scan.
         trust: (U, V) 1 where the scan was met, 0 in holes.
+        rounded: whether the curved surface was met that the triangles stand for.
     """
 
     scan: Scan
@@ -54,10 +58,11 @@ class Registered:
     weights: FloatArray
     points: FloatArray
     trust: FloatArray
+    rounded: bool
 
 
 def register(
-    scan: Scan, landmarks: Landmarks, weights: FloatArray, *, rounded: bool = False
+    scan: Scan, landmarks: Landmarks, weights: FloatArray, *, rounded: bool | None = None
 ) -> Registered:
     """Lay the face onto a scan.
 
@@ -65,16 +70,18 @@ def register(
         scan: its outside, in the frame of the template as far as landmarks tell.
         landmarks: in that frame.
         weights: first identity.
-        rounded: as for :func:`pdeface.scan.laying.lay`.
+        rounded: as for :func:`pdeface.scan.laying.lay`; None for it where triangles are coarse.
     """
     target = Target(thinned(scan, _COARSEST) if len(scan.vertices) > _MANY else scan, _BREADTH)
     rotation, shift, weights = identity(target, landmarks, weights)
     scan = scan.moved(rotation, 1.0, shift)
     points = landmarks.points @ rotation.T + shift
     face = grid(*FINE)
+    if rounded is None:
+        rounded = not scan.is_cloud and scan.spacing > _COARSE
     marks = Landmarks(landmarks.uv, points, landmarks.trust)
     laid, trust = lay(face.of(weights), scan, marks, rounded=rounded)
-    return Registered(scan, rotation, shift, weights, laid, trust)
+    return Registered(scan, rotation, shift, weights, laid, trust, rounded)
 
 
 def identity(
