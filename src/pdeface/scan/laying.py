@@ -75,6 +75,11 @@ _ODD = 1.2e-3
 """Metres that a move may differ from those around it, as into a nostril, before it loses weight."""
 
 
+_RIM, _RIM_WIDTH, _FOLD = (24.8, 26.6), 1.2, 1.0e-3
+"""Rows of the paper between which the edge under the jaw begins; how smooth it becomes, in rows;
+and how far from that, metres, it is half-way on its way there."""
+
+
 def lay(
     start: FloatArray, scan: Scan, landmarks: Landmarks, *, rounded: bool = False
 ) -> tuple[FloatArray, FloatArray]:
@@ -100,10 +105,25 @@ def lay(
     detailed = not scan.is_cloud or _LAST.width * _ROW > _DETAIL * scan.spacing
     for _ in range(_LAST.rounds if detailed else 0):
         points = points + _move(points, _LAST, target, landmarks, known, 0.0, bend)
+    points = _with_fair_rim(points, start)
     facing = normals(points).reshape(-1, 3)
     found = target.nearest(points.reshape(-1, 3), facing)
     trust = met(found.away, (found.normals * facing).sum(axis=1), _LAST.cutoff)
     return points, trust.reshape(points.shape[:2])
+
+
+def _with_fair_rim(points: FloatArray, start: FloatArray) -> FloatArray:
+    """The grid without the folds that it has beneath the jaw: where it lies far from its way from
+    the start, smoothed, it goes back to that."""
+    rows, columns = points.shape[:2]
+    row = np.linspace(0.0, 27.0, rows)
+    inner = np.tile(((_RIM[1] - row) / (_RIM[1] - _RIM[0])).clip(0.0, 1.0)[:, None], columns)
+    widths = _RIM_WIDTH * (rows - 1) / 27, _RIM_WIDTH * columns / 27
+    fair = start + smoothed(points - start, inner + 0.1, widths, 0.0)
+    squares = np.repeat(((points - fair) ** 2).sum(axis=2)[..., None], 3, axis=2)
+    off = np.abs(smoothed(squares, np.ones((rows, columns)), widths, 0.0)[..., :1])
+    share = (1.0 - inner[..., None]) * off**2 / (off**2 + _FOLD**4)
+    return np.asarray(points + share * (fair - points))
 
 
 def met(away: FloatArray, alike: FloatArray, cutoff: float) -> FloatArray:
