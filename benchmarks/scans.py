@@ -21,7 +21,7 @@ from pdeface.controls.build.__main__ import SAMPLES, Sampler
 from pdeface.controls.seams import nearest
 from pdeface.pictures import contact_sheet, render
 from pdeface.pictures.image_file import write_image
-from pdeface.scan import Scan, ScanFit, fit_scan, make_scan, measure, read_scan
+from pdeface.scan import Scan, ScanFit, Target, fit_scan, make_scan, measure, read_scan
 from pdeface.scan.model import dense_neutral
 from pdeface.scan.report import scan_picture
 from pdeface.template import row
@@ -40,6 +40,9 @@ ROWS = {
     "mouth_seam_lower": (1.2, np.pi / 2),
     "lower_lip_border": (1.3, np.pi / 2),
 }
+
+SHOWN = 0.25e-3
+"""Metres from a scan's outside within which it shows a place."""
 
 
 class Subject(NamedTuple):
@@ -74,14 +77,19 @@ def makehuman_heads(folder: Path) -> Iterator[Subject]:
 
 
 def off_features(fit: ScanFit, truth: np.ndarray) -> dict[str, float]:
-    """Root mean square distance of each feature row from the true one, millimetres."""
+    """Root mean square distance of each feature row from the true one, millimetres.
+
+    Where lips of a head go through each other the true row is inside, and no scan shows it: what
+    lies off the scan's outside does not count.
+    """
     truth = fit.scale * truth @ fit.rotation.T + fit.shift
-    surface, distances = fit.face.surface(), {}
+    surface, distances, outside = fit.face.surface(), {}, Target(fit.scan)
     for name, (first, last) in ROWS.items():
         line = truth[row(name, SAMPLES[0])]
         v = np.linspace(first, last, 25)
         ours = np.concatenate([surface(row(name) / 27, v), surface(row(name) / 27, np.pi - v)])
-        away = np.linalg.norm(nearest(line, ours) - ours, axis=1)
+        true = nearest(line, ours)
+        away = np.linalg.norm(true - ours, axis=1)[outside.nearest(true).away < SHOWN]
         distances[name] = 1e3 * float(np.sqrt((away**2).mean()))
     return distances
 

@@ -61,7 +61,7 @@ _DETAIL = 0.25
 smoothing follow its points, not its shape."""
 
 _BREADTH = 4.0e-3
-_SLIDE = 0.2
+_SLIDE = 0.4
 """Share of the way along the surface that is gone."""
 
 _ROUND = 0.5
