@@ -55,6 +55,14 @@ def test_no_face_is_one_line(model) -> None:
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("name", ["ball", "ring"])
+def test_a_ball_and_a_ring_are_no_faces(name: str, model) -> None:
+    creation = pytest.importorskip("trimesh.creation", reason="needs the extra 'scan'")
+    mesh = creation.icosphere(4, 0.1) if name == "ball" else creation.torus(0.1, 0.04)
+    with pytest.raises(InputError, match="no face is found"):
+        find_landmarks(make_scan(np.array(mesh.vertices), np.array(mesh.faces)), model)
+
+
 def test_landmarks_from_a_file(tmp_path: Path) -> None:
     surface = pdeface.neutral("55x92").surface()
     places = known_places()

@@ -79,11 +79,15 @@ def fit_curves(
     for w in np.unique(w_of_mode):
         across = u_weights(np.linspace(0.0, 1.0, rows), w, count, continuity=continuity)
         normal = across.T @ (row_weight * across) + fairness * rows / count * bending.T @ bending
-        for mode in np.flatnonzero(w_of_mode == w):
-            high = damping * rows / count * (mode / (points / 2)) ** DAMPING_POWER
-            right = np.einsum("uk,cux->kcx", row_weight * across, amplitudes[:, :, mode])
-            solution = np.linalg.solve(normal + high * np.eye(count), right.reshape(count, -1))
-            fitted[:, :, mode] = solution.reshape(count, 2, 3).transpose(1, 0, 2)
+        # Modes of one w differ in a multiple of the identity alone: one decomposition for them all.
+        values, vectors = np.linalg.eigh(normal)
+        those = np.flatnonzero(w_of_mode == w)
+        high = damping * rows / count * (those / (points / 2)) ** DAMPING_POWER
+        right = np.einsum("uk,cumx->kmcx", row_weight * across, amplitudes[:, :, those])
+        turned = (vectors.T @ right.reshape(count, -1)).reshape(count, len(those), 6)
+        turned /= (values[:, None] + high)[..., None]
+        solution = (vectors @ turned.reshape(count, -1)).reshape(count, len(those), 2, 3)
+        fitted[:, :, those] = solution.transpose(2, 0, 1, 3)
     v = (np.arange(points) + 0.5) * (2.0 * np.pi / points)
     return np.asarray(np.einsum("cmn,cknx->kmx", synthesis(points, v), fitted))
 

@@ -27,6 +27,9 @@ _SIZE, _AROUND, _FRONT = 400, 240, 560
 _CELL = 1.0, 2.0
 """Pixels, of a mesh's pictures and of a cloud's, in which one vertex does."""
 
+_SMALL = 10_000
+"""Vertices of a scan up to which a face that is a small part of it has too few."""
+
 _FACE_WIDTH = 0.24
 """Metres that a picture of a face from its front shows."""
 
@@ -49,7 +52,9 @@ def find_landmarks(
     """
     say = progress or (lambda text: None)
     with glances(model) as detect:
-        best = _best(_looks(scan, detect, say)) or _best(_close_looks(scan, detect, say))
+        best = _best(_looks(scan, detect, say))
+        if best is None and len(scan.vertices) > _SMALL:
+            best = _best(_close_looks(scan, detect, say))
         if best is None:
             raise InputError(
                 "no face is found in the scan; give points on it with --landmarks (docs/scans.md)"
