@@ -4,6 +4,10 @@ import { h } from "./dom";
 import { icon } from "./icons";
 import type { Studio } from "./studio";
 
+// What opens beside the stage and stays until it is closed.
+const DOORS = ["motion", "webcam", "sculpt"] as const;
+type Door = (typeof DOORS)[number];
+
 export interface Commands {
   readonly open: () => void;
   readonly save: () => void;
@@ -14,9 +18,12 @@ export interface Commands {
   readonly sculpt: () => void;
   readonly theme: () => void;
   readonly help: () => void;
+  // What is open now.
+  readonly isOpen: () => Readonly<Record<Door, boolean>>;
 }
 
 export class Bar {
+  #doors: Record<Door, HTMLButtonElement>;
   #undo: HTMLButtonElement;
   #redo: HTMLButtonElement;
   #name: HTMLInputElement;
@@ -25,7 +32,7 @@ export class Bar {
   constructor(
     private studio: Studio,
     place: HTMLElement,
-    commands: Commands,
+    private commands: Commands,
   ) {
     const { timeline } = studio;
     const tool = (name: string, label: string, act: () => void, text = "") =>
@@ -37,6 +44,11 @@ export class Bar {
     this.#name = h("input", { class: "name", "aria-label": "Name of the face", maxlength: 120, spellcheck: "false" });
     this.#name.addEventListener("change", () =>
       timeline.commit("Rename", { ...timeline.doc, name: this.#name.value.trim() || "face" }));
+    this.#doors = {
+      motion: tool("motion", "Motion (Space)", commands.motion, "Motion"),
+      webcam: tool("camera", "Webcam: the face does what you do (W)", commands.webcam, "Webcam"),
+      sculpt: tool("curves", "Drag points of the boundary curves (D)", commands.sculpt, "Sculpt"),
+    };
     place.append(
       h("div", { class: "brand" }, h("b", {}, "pdeface"), " studio"),
       this.#name,
@@ -45,9 +57,7 @@ export class Bar {
       h("div", { class: "cluster doors" },
         tool("open", "Open a photo, a scan, a face or a motion (Ctrl+O)", commands.open, "Open"),
         tool("photo", "Photo and its points", commands.photo, "Photo"),
-        tool("motion", "Motion (Space)", commands.motion, "Motion"),
-        tool("camera", "Webcam: the face does what you do (W)", commands.webcam, "Webcam"),
-        tool("curves", "Drag points of the boundary curves (D)", commands.sculpt, "Sculpt"),
+        this.#doors.motion, this.#doors.webcam, this.#doors.sculpt,
         tool("save", "Save as .pdeface (Ctrl+S)", commands.save, "Save"),
         tool("export", "Export (Ctrl+E)", commands.exports, "Export")),
       h("div", { class: "cluster" },
@@ -55,6 +65,7 @@ export class Bar {
         tool("help", "Help and shortcuts (?)", commands.help)),
     );
     timeline.addEventListener("change", () => this.#show());
+    studio.addEventListener("doors", () => this.#show());
     document.addEventListener("pointerdown", (event) => {
       if (!(event.target as Element).closest(".anchor")) this.#history.hidden = true;
     });
@@ -66,6 +77,8 @@ export class Bar {
     this.#undo.disabled = !timeline.canUndo;
     this.#redo.disabled = !timeline.canRedo;
     this.#name.value = timeline.doc.name;
+    const open = this.commands.isOpen();
+    for (const door of DOORS) this.#doors[door].setAttribute("aria-pressed", String(open[door]));
     if (!this.#history.hidden) this.#fillHistory();
   }
 

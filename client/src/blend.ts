@@ -11,6 +11,7 @@ import { toast } from "./toast";
 export class Blend {
   #bar = h("div", { class: "float sculpt", hidden: true, role: "group", "aria-label": "Blend" });
   #range = h("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0, id: "share", "aria-label": "Share of the other face" });
+  #percent = h("output", { for: "share" });
   #one: Doc | null = null;
   #other: FaceInfo | null = null;
 
@@ -41,7 +42,7 @@ export class Blend {
       this.#range.value = "0";
       const close = h("button", { class: "icon-only", "aria-label": "Close blend", onclick: () => (this.#bar.hidden = true) }, icon("close"));
       const name = (text: string) => h("span", {}, text || "face");
-      this.#bar.replaceChildren(name(this.#one.name), this.#range, name(face.name), close);
+      this.#bar.replaceChildren(name(this.#one.name), this.#range, name(face.name), this.#percent, close);
       this.#bar.hidden = false;
       this.#show();
     } catch (error) {
@@ -62,7 +63,9 @@ export class Blend {
   }
 
   #show(): void {
-    this.#range.style.setProperty("--to", `${100 * this.#range.valueAsNumber}%`);
+    const percent = Math.round(100 * this.#range.valueAsNumber);
+    this.#range.style.setProperty("--to", `${percent}%`);
+    this.#percent.textContent = `${percent} %`;
   }
 }
 

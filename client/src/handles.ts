@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { api, type Packet } from "./api";
 import { h } from "./dom";
+import { icon } from "./icons";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
@@ -53,6 +54,7 @@ export class Handles {
   #points: THREE.Points | null = null;
   #hover: Place | null = null;
   #drag: Drag | null = null;
+  #hint = h("span", { class: "hint" }, "Drag a point");
   #box: HTMLElement;
 
   constructor(
@@ -74,8 +76,10 @@ export class Handles {
       this.studio.viewer.draw();
     };
     radius.addEventListener("input", show);
-    this.#box = h("div", { class: "float sculpt", hidden: true },
-      this.#choice(), h("label", { for: "falloff" }, "Falloff"), radius);
+    const close = h("button", { class: "icon-only", title: "Without the points (D)", "aria-label": "Close sculpting", onclick: () => this.toggle() }, icon("close"));
+    this.#box = h("div", { class: "float sculpt", hidden: true, role: "group", "aria-label": "Sculpt" },
+      this.#hint,
+      this.#choice(), h("label", { for: "falloff" }, "Falloff"), radius, close);
     stage.append(this.#box);
     show();
     studio.addEventListener("shown", () => this.#rebuild());
@@ -92,6 +96,7 @@ export class Handles {
         title: what, "aria-pressed": String(whole === this.#whole),
         onclick: () => {
           this.#whole = whole;
+          this.#hint.textContent = `Drag a ${label.toLowerCase()}`;
           buttons.forEach((button, n) => button.setAttribute("aria-pressed", String(ways[n]!.whole === whole)));
         },
       }, label));
@@ -101,6 +106,7 @@ export class Handles {
   toggle(): void {
     this.on = !this.on;
     this.#box.hidden = !this.on;
+    this.studio.tellDoors();
     this.#rebuild();
     const { display } = this.studio.viewer;
     if (display) {

@@ -1,29 +1,68 @@
-// A portrait studio: a large soft light from the upper left, a fill, and two rims from behind.
+// A portrait studio that stands around the camera: a large soft light from the upper left, a fill,
+// and two rims from behind. It turns with the camera, so that no side of a face is in the dark.
 
 import * as THREE from "three";
 
-// Without what surrounds the face, which takes a processor seconds to draw, there is more light
-// from everywhere.
-export function light(scene: THREE.Scene, renderer: THREE.WebGLRenderer, surrounded: boolean): void {
-  if (surrounded) surround(scene, renderer);
-  const lamp = (colour: number, intensity: number, x: number, y: number, z: number) => {
-    const sun = new THREE.DirectionalLight(colour, intensity);
-    sun.position.set(x, y, z);
-    return sun;
-  };
-  scene.add(
-    lamp(0xfff1e0, 1.7, -0.75, 0.9, 1.1),
-    lamp(0xdfe9ff, 0.55, 1.2, 0.15, 0.8),
-    lamp(0xcfe0ff, 1.1, 1.1, 0.7, -0.9),
-    lamp(0xffe2c8, 0.7, -1.2, 0.3, -0.8),
-    new THREE.HemisphereLight(0xf2f4ff, 0x8d7a6c, surrounded ? 0.55 : 1.35),
-  );
+// Intensities of key, fill, the two rims, what comes from everywhere, and what surrounds the face.
+interface Mood {
+  readonly lamps: readonly [number, number, number, number];
+  readonly all: number;
+  readonly around: number;
 }
 
-// What surrounds the face; drawn by the graphics card, and lost with its memory.
-export function surround(scene: THREE.Scene, renderer: THREE.WebGLRenderer): void {
-  scene.environment = softboxes(renderer);
-  scene.environmentIntensity = 0.55;
+// A photo brings its own light: what is added to it is nearly even. Form alone is modelled by light.
+const EVEN: Mood = { lamps: [0.75, 0.45, 0.35, 0.3], all: 1.15, around: 0.5 };
+const FORM: Mood = { lamps: [1.7, 0.5, 0.9, 0.6], all: 0.5, around: 0.5 };
+// Where nothing surrounds the face, which takes a processor seconds to draw.
+const INSTEAD = 0.8;
+
+const LAMPS = [
+  { colour: 0xfff4e6, at: [-0.75, 0.9, 1.1] },
+  { colour: 0xe6edff, at: [1.2, 0.15, 0.8] },
+  { colour: 0xcfe0ff, at: [1.1, 0.7, -0.9] },
+  { colour: 0xffe2c8, at: [-1.2, 0.3, -0.8] },
+] as const;
+
+export class Lights {
+  #rig = new THREE.Group();
+  #lamps: THREE.DirectionalLight[];
+  #all = new THREE.HemisphereLight(0xf6f7ff, 0x9b8b7e);
+
+  constructor(
+    private scene: THREE.Scene,
+    private renderer: THREE.WebGLRenderer,
+    private surrounded: boolean,
+  ) {
+    this.#lamps = LAMPS.map(({ colour, at }) => {
+      const lamp = new THREE.DirectionalLight(colour);
+      lamp.position.fromArray([...at]);
+      this.#rig.add(lamp, lamp.target);
+      return lamp;
+    });
+    this.#all.position.set(0, 1, 0.35);
+    this.#rig.add(this.#all);
+    scene.add(this.#rig);
+    this.surround();
+    this.even = true;
+  }
+
+  // Nearly the same from everywhere, or such that form is seen.
+  set even(even: boolean) {
+    const { lamps, all, around } = even ? EVEN : FORM;
+    this.#lamps.forEach((lamp, n) => (lamp.intensity = lamps[n]!));
+    this.#all.intensity = all + (this.surrounded ? 0 : INSTEAD);
+    this.scene.environmentIntensity = around;
+  }
+
+  follow(eye: THREE.Camera): void {
+    this.#rig.quaternion.copy(eye.quaternion);
+    this.scene.environmentRotation.setFromQuaternion(eye.quaternion);
+  }
+
+  // What surrounds the face; drawn by the graphics card, and lost with its memory.
+  surround(): void {
+    if (this.surrounded) this.scene.environment = softboxes(this.renderer);
+  }
 }
 
 // What shines in the eyes: white panels in a dim room.

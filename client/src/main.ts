@@ -138,8 +138,9 @@ async function start(): Promise<void> {
   ];
   new Bar(studio, document.getElementById("bar")!, {
     open: () => files.choose(), save: () => void save(), exports: () => exportDialog(studio, motion),
-    photo: () => void showPhoto(), motion: () => show(), webcam: film, sculpt: () => handles.toggle(),
-    theme: switchTheme, help: () => help(shortcuts),
+    photo: () => void showPhoto(), motion: () => (motion.open ? motion.close() : show()), webcam: film,
+    sculpt: () => handles.toggle(), theme: switchTheme, help: () => help(shortcuts),
+    isOpen: () => ({ motion: motion.open, webcam: webcam.open, sculpt: handles.on }),
   });
   listen(shortcuts);
   const keep = settled(() => keepSession(timeline.steps, timeline.at), 150);

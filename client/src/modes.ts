@@ -6,6 +6,7 @@ import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import { curvatureColours } from "./curvature";
 import { distanceColours } from "./distance";
+import { clamp } from "./dom";
 import type { Head } from "./head";
 
 export const MODES = [
@@ -35,11 +36,11 @@ export class Display {
   #theme: "dark" | "light" = "dark";
   readonly #clay = new Map<string, THREE.MeshStandardMaterial>();
   readonly #curvature = standard({ vertexColors: true, roughness: 0.85 });
-  readonly #wire = new THREE.MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.55 });
+  readonly #wire = new THREE.LineBasicMaterial({ transparent: true });
   readonly #fill = standard({ roughness: 0.9 });
   readonly #line = new LineMaterial({ linewidth: 1.6, worldUnits: false });
   readonly #hidden = new THREE.MeshBasicMaterial({ colorWrite: false, depthWrite: false });
-  #fillMesh: THREE.Mesh | null = null;
+  #grid: THREE.LineSegments | null = null;
 
   constructor(private head: Head) {
     for (const material of [this.#fill, this.#curvature]) pushBack(material);
@@ -63,14 +64,15 @@ export class Display {
       primitive.mesh.material = this.#material(primitive.kind, primitive.own, mode);
     }
     this.#wire.color.setHex(INK[this.#theme]);
+    // Fine meshes have so many lines that full ones would leave no form to see.
+    this.#wire.opacity = clamp(6000 / head.skin.count + 0.25, 0.4, 0.9);
     this.#fill.color.setHex(FILL[this.#theme]);
     this.#line.color.setHex(mode === "curves" ? INK[this.#theme] : 0xffc56b);
     this.#forgetLines();
     if (mode === "wireframe") {
-      // Lines alone would show the far side through the near one.
-      this.#fillMesh = new THREE.Mesh(head.skin.mesh.geometry, this.#fill);
-      this.#fillMesh.frustumCulled = false;
-      head.skin.mesh.add(this.#fillMesh);
+      this.#grid = new THREE.LineSegments(cells(head), this.#wire);
+      this.#grid.frustumCulled = false;
+      head.skin.mesh.add(this.#grid);
     }
     if (mode === "curves" || mode === "uvmesh" || this.overlay) this.#addLines();
     this.moved();
@@ -83,6 +85,12 @@ export class Display {
     if (this.#lines) this.#lines.geometry.setPositions(this.#segments());
   }
 
+  // Whether what is seen is a picture, which has its own light.
+  get wearsPhoto(): boolean {
+    const own = this.head.skin.own as THREE.MeshStandardMaterial;
+    return (this.mode === "textured" || this.mode === "uvmesh") && own.map !== null;
+  }
+
   resize(width: number, height: number): void {
     this.#line.resolution.set(width, height);
   }
@@ -93,7 +101,7 @@ export class Display {
     if (mode === "shaded") return this.#clayOf(kind);
     if (kind === "skin") {
       return {
-        curvature: this.#curvature, distance: this.#curvature, wireframe: this.#wire, curves: this.#fill,
+        curvature: this.#curvature, distance: this.#curvature, wireframe: this.#fill, curves: this.#fill,
       }[mode];
     }
     if (mode === "curvature" || mode === "distance") return this.#clayOf(kind);
@@ -118,9 +126,11 @@ export class Display {
   }
 
   #forgetLines(): void {
-    for (const object of [this.#lines, this.#fillMesh]) object?.removeFromParent();
-    this.#lines?.geometry.dispose();
-    this.#lines = this.#fillMesh = null;
+    for (const object of [this.#lines, this.#grid]) {
+      object?.removeFromParent();
+      object?.geometry.dispose();
+    }
+    this.#lines = this.#grid = null;
   }
 
   // Rows of the mesh that lie on the boundary curves; for the uv mesh, columns as well.
@@ -152,6 +162,27 @@ export class Display {
     for (let i = 0; i < index.length; i++) used[index[i]!] = 1;
     return used;
   }
+}
+
+// The sides of the mesh's cells, each once, without the diagonals that make triangles of them; they
+// move with the skin's own vertices.
+function cells({ skin, size: { columns } }: Head): THREE.BufferGeometry {
+  const { index, count } = skin;
+  const seen = new Set<number>();
+  for (let t = 0; t < index.length; t++) {
+    const [a, b] = [index[t]!, index[t % 3 === 2 ? t - 2 : t + 1]!];
+    const step = Math.abs(a - b);
+    if (step === 1 || step === columns) seen.add(Math.min(a, b) * count + Math.max(a, b));
+  }
+  const ends = new Uint32Array(2 * seen.size);
+  let at = 0;
+  for (const side of seen) {
+    ends[at++] = Math.floor(side / count);
+    ends[at++] = side % count;
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", skin.mesh.geometry.getAttribute("position"));
+  return geometry.setIndex(new THREE.BufferAttribute(ends, 1));
 }
 
 // About `parts` + 1 lines through `count` nodes, both ends among them.

@@ -135,6 +135,7 @@ export class Motion {
   close(): void {
     this.pause();
     this.#bar.hidden = true;
+    this.studio.tellDoors();
     this.clip = null;
     this.studio.performing = false;
     this.studio.head?.pivot.rotation.set(0, 0, 0);
@@ -178,6 +179,7 @@ export class Motion {
     this.pause();
     this.clip = clip;
     this.#bar.hidden = false;
+    this.studio.tellDoors();
     this.time = 0;
     this.#restart();
     this.play();

@@ -33,7 +33,7 @@ export class ScanView {
   show(info: ScanInfo): void {
     this.#unveil();
     this.info = info;
-    const veil = h("button", { class: "quiet", id: "veil", "aria-pressed": "false", title: "The scan itself, over the face", onclick: () => void this.#toggle(veil) }, "Scan");
+    const veil = h("button", { class: "quiet", id: "veil", "aria-pressed": "false", title: "The scan itself, over the face", onclick: () => void this.#toggle(veil) }, "Show scan");
     const close = h("button", { class: "icon-only", title: "Without the scan", "aria-label": "Without the scan", onclick: () => this.close() }, icon("close"));
     const bar = h("div", { class: "scale", role: "img", "aria-label": `Colours from 0 to ${FULL} millimetre and more` });
     bar.style.background = `linear-gradient(to right, ${SCALE.join(", ")})`;

@@ -229,6 +229,11 @@ export class Studio extends EventTarget {
     return this.#retold(() => api.save(face, name, weights));
   }
 
+  // Something beside the stage has been opened or closed.
+  tellDoors(): void {
+    this.dispatchEvent(new Event("doors"));
+  }
+
   #follow(): void {
     if (this.redraw()) this.#refine();
     this.dispatchEvent(new Event("live"));

@@ -3,12 +3,12 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Head } from "./head";
-import { light, surround } from "./lights";
+import { Lights } from "./lights";
 import { Display } from "./modes";
 
 export const VIEWS = {
   front: [0, 0.03],
-  threeQuarter: [0.6, 0.06],
+  threeQuarter: [0.52, 0.05],
   profile: [Math.PI / 2, 0.02],
   otherProfile: [-Math.PI / 2, 0.02],
 } as const;
@@ -51,6 +51,7 @@ export class Viewer {
   #orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.02, 10);
   #asked = 0;
   #software: boolean;
+  #lights: Lights;
   #centre = new THREE.Vector3(0, 0, 0.05);
   #radius = 0.14;
   #animation = 0;
@@ -76,13 +77,13 @@ export class Viewer {
     this.controls.minDistance = 0.12;
     this.controls.maxDistance = 3;
     this.controls.addEventListener("change", () => this.draw());
-    light(this.scene, this.renderer, !this.#software);
+    this.#lights = new Lights(this.scene, this.renderer, !this.#software);
     this.canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       onLost();
     });
     this.canvas.addEventListener("webglcontextrestored", () => {
-      if (!this.#software) surround(this.scene, this.renderer);
+      this.#lights.surround();
       this.draw();
     });
     this.renderer.debug.onShaderError = () => onLost();
@@ -101,8 +102,11 @@ export class Viewer {
     if (this.display) this.display.setHead(head);
     else this.display = new Display(head);
     this.display.resize(this.stage.clientWidth, this.stage.clientHeight);
+    const before = this.#radius;
     this.#measure();
     if (first) this.look("threeQuarter", false);
+    // Another head, of another size: all of it is shown.
+    else if (Math.abs(this.#radius / before - 1) > 0.04 && !this.#stand) this.fit();
     this.draw();
   }
 
@@ -115,6 +119,8 @@ export class Viewer {
     cancelAnimationFrame(this.#asked);
     this.#asked = 0;
     this.frames++;
+    this.#lights.even = this.display?.wearsPhoto ?? true;
+    this.#lights.follow(this.eye);
     this.renderer.render(this.scene, this.eye);
   }
 

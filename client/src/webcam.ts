@@ -66,6 +66,7 @@ export class Webcam {
   async show(): Promise<void> {
     if (this.open) return;
     this.#bar.hidden = false;
+    this.studio.tellDoors();
     this.#say("Starting the camera…");
     try {
       if (!navigator.mediaDevices) throw new Error("the browser gives no camera to this address; use http://127.0.0.1");
@@ -92,6 +93,7 @@ export class Webcam {
     this.#take = null;
     this.#record.setAttribute("aria-pressed", "false");
     this.#bar.hidden = true;
+    this.studio.tellDoors();
     for (const track of this.#stream?.getTracks() ?? []) track.stop();
     this.#stream = null;
     this.#video.srcObject = null;
