@@ -7,7 +7,10 @@ import { icon } from "./icons";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
-const REACH = 11;
+// Pixels around a handle: a finger is broader than a pointer.
+const REACH = { mouse: 11, pen: 16, touch: 26 } as Readonly<Record<string, number>>;
+// Pixels that a metre farther behind counts as when a handle is chosen.
+const PER_METRE = 400;
 const COLOURS = { rest: new THREE.Color(0x8fb7ff), hover: new THREE.Color(0xffc56b) };
 
 // Round dots, a little nearer than the skin that they lie on; those held are larger.
@@ -36,6 +39,7 @@ interface Place {
 }
 
 interface Drag {
+  readonly pointer: number;
   readonly place: Place;
   readonly start: THREE.Vector3;
   readonly plane: THREE.Plane;
@@ -65,8 +69,8 @@ export class Handles {
     canvas.addEventListener("pointermove", (event) => this.#moved(event));
     // Before the orbit hears of it.
     canvas.addEventListener("pointerdown", (event) => this.#grab(event), { capture: true });
-    canvas.addEventListener("pointerup", () => void this.#drop());
-    canvas.addEventListener("pointercancel", () => this.#cancel());
+    canvas.addEventListener("pointerup", (event) => this.#drag?.pointer === event.pointerId && void this.#drop());
+    canvas.addEventListener("pointercancel", (event) => this.#drag?.pointer === event.pointerId && this.#cancel());
     const radius = h("input", {
       type: "range", min: 0, max: 6, step: 0.5, value: 2, id: "falloff", "aria-label": "Falloff",
     });
@@ -220,14 +224,15 @@ export class Handles {
     if (!head) return null;
     let best: Place | null = null;
     let nearest = Infinity;
+    const reach = REACH[event.pointerType] ?? 11;
     for (let curve = 0; curve < info.curves; curve++) {
       for (let point = 0; point < this.#half; point++) {
         const place = { curve, point };
         const { x, y, depth } = this.screen(place);
         const away = Math.hypot(x - event.clientX, y - event.clientY);
-        // Of handles under the pointer the one in front, not one on the far side.
-        if (away < REACH && depth + away * 1e-4 < nearest) {
-          nearest = depth + away * 1e-4;
+        // Of handles near the pointer the nearest, but none on the far side.
+        if (away < reach && away + PER_METRE * depth < nearest) {
+          nearest = away + PER_METRE * depth;
           best = place;
         }
       }
@@ -238,10 +243,10 @@ export class Handles {
 
   #moved(event: PointerEvent): void {
     if (this.#drag) {
-      this.#pull(event);
+      if (event.pointerId === this.#drag.pointer) this.#pull(event);
       return;
     }
-    if (!this.on || event.buttons) return;
+    if (!this.on || event.buttons || event.pointerType === "touch") return;
     const hover = this.#pick(event);
     if (hover?.curve === this.#hover?.curve && hover?.point === this.#hover?.point) return;
     this.#hover = hover;
@@ -251,21 +256,30 @@ export class Handles {
 
   #grab(event: PointerEvent): void {
     if (!this.on || event.button !== 0) return;
+    // A second finger neither turns the face nor takes another handle while one is held.
+    if (this.#drag) {
+      event.stopImmediatePropagation();
+      return;
+    }
     const place = this.#pick(event);
     if (!place) return;
     event.stopImmediatePropagation();
     const { viewer, doc, size, symmetric } = this.studio;
     viewer.canvas.setPointerCapture(event.pointerId);
-    const start = this.#world(place);
     const towards = viewer.eye.getWorldDirection(new THREE.Vector3());
-    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(towards, start);
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(towards, this.#world(place));
+    // Where the pointer is, which need not be on the handle: nothing jumps.
+    const start = this.#under(event, plane);
+    if (!start) return;
     // A whole curve has both sides in it already.
     const mirrored = symmetric && !this.#whole;
     const drag: Drag = {
-      place, start, plane, mirrored, handles: this.#shares(place), response: null, by: new THREE.Vector3(),
+      pointer: event.pointerId, place, start, plane, mirrored, handles: this.#shares(place), response: null, by: new THREE.Vector3(),
     };
     this.#drag = drag;
     this.studio.holding = true;
+    this.#place();
+    viewer.draw();
     api.response(doc.face, size, drag.handles, mirrored).then(
       (response) => {
         drag.response = response;
@@ -280,6 +294,21 @@ export class Handles {
 
   #pull(event: PointerEvent): void {
     const drag = this.#drag!;
+    const hit = this.#under(event, drag.plane);
+    if (!hit) return;
+    drag.by = hit.sub(drag.start);
+    // What lies on the middle stays there where both sides move together.
+    const middle = !drag.mirrored || 2 * drag.place.point === this.#half - 1;
+    if (this.studio.symmetric && middle) drag.by.x = 0;
+    // Where both sides reach the handle that is held, it is to follow the pointer all the same.
+    const also = drag.mirrored ? this.#share(this.#half - 1 - 2 * drag.place.point) : 0;
+    drag.by.y /= 1 + also;
+    drag.by.z /= 1 + also;
+    this.#bend();
+  }
+
+  // Where on a plane the pointer is.
+  #under(event: PointerEvent, plane: THREE.Plane): THREE.Vector3 | null {
     const { viewer } = this.studio;
     const frame = viewer.canvas.getBoundingClientRect();
     const at = new THREE.Vector2(
@@ -288,13 +317,7 @@ export class Handles {
     );
     const ray = new THREE.Raycaster();
     ray.setFromCamera(at, viewer.eye);
-    const hit = ray.ray.intersectPlane(drag.plane, new THREE.Vector3());
-    if (!hit) return;
-    drag.by = hit.sub(drag.start);
-    // What lies on the middle stays there where both sides move together.
-    const middle = !drag.mirrored || 2 * drag.place.point === this.#half - 1;
-    if (this.studio.symmetric && middle) drag.by.x = 0;
-    this.#bend();
+    return ray.ray.intersectPlane(plane, new THREE.Vector3());
   }
 
   // The surface is linear in its curves: the move times the response, no server asked.

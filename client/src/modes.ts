@@ -126,6 +126,8 @@ export class Display {
   }
 
   #forgetLines(): void {
+    // The skin's own vertices stay with the skin.
+    this.#grid?.geometry.deleteAttribute("position");
     for (const object of [this.#lines, this.#grid]) {
       object?.removeFromParent();
       object?.geometry.dispose();

@@ -2,7 +2,8 @@
 
 import * as THREE from "three";
 import { api } from "./api";
-import { clamp, h } from "./dom";
+import { h } from "./dom";
+import { gestures, type Step } from "./gestures";
 import { icon } from "./icons";
 import type { PhotoInfo } from "./schema";
 import type { Studio } from "./studio";
@@ -34,8 +35,7 @@ export class Overlay implements Stand {
     stage.insertBefore(this.#image, canvas);
     stage.append(this.#bar);
     this.#opacity.addEventListener("input", () => this.#fade());
-    canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
-    canvas.addEventListener("pointerdown", (event) => this.#drag(event));
+    gestures(canvas, () => this.open && !studio.holding, (step) => this.#move(step));
   }
 
   get open(): boolean {
@@ -142,29 +142,9 @@ export class Overlay implements Stand {
     this.studio.viewer.draw();
   }
 
-  #wheel(event: WheelEvent): void {
-    if (!this.#photo) return;
-    event.preventDefault();
-    const frame = this.studio.viewer.canvas.getBoundingClientRect();
-    const [x, y] = [event.clientX - frame.left, event.clientY - frame.top];
-    const by = clamp(Math.exp(-event.deltaY / 600), 0.5, 2);
+  #move({ x, y, dx, dy, by }: Step): void {
     this.#zoom *= by;
-    this.#corner = [x + by * (this.#corner[0] - x), y + by * (this.#corner[1] - y)];
+    this.#corner = [x + by * (this.#corner[0] - x) + dx, y + by * (this.#corner[1] - y) + dy];
     this.#place();
-  }
-
-  #drag(event: PointerEvent): void {
-    if (!this.#photo) return;
-    const { canvas } = this.studio.viewer;
-    canvas.setPointerCapture(event.pointerId);
-    let [x, y] = [event.clientX, event.clientY];
-    const move = (now: PointerEvent) => {
-      if (!this.#photo) return;
-      this.#corner = [this.#corner[0] + now.clientX - x, this.#corner[1] + now.clientY - y];
-      [x, y] = [now.clientX, now.clientY];
-      this.#place();
-    };
-    canvas.addEventListener("pointermove", move);
-    canvas.addEventListener("lostpointercapture", () => canvas.removeEventListener("pointermove", move), { once: true });
   }
 }

@@ -3,23 +3,12 @@
 
 import { api } from "./api";
 import { dialog, download, fileName } from "./dialogs";
-import { clamp, h, settled } from "./dom";
+import { h, settled } from "./dom";
+import { PhotoView } from "./photo_view";
 import type { TextureWay } from "./api";
-import type { PhotoInfo, PhotoPoint } from "./schema";
+import type { PhotoInfo } from "./schema";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
-
-const SVG = "http://www.w3.org/2000/svg";
-const LOUPE = 132;
-const ZOOM = 4;
-const GRID = 5;
-const NODES = 7;
-
-function svg(tag: string, attributes: Record<string, string | number>): SVGElement {
-  const element = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
-  return element;
-}
 
 export interface PhotoActions {
   readonly add: (files: readonly File[], beside: readonly string[]) => Promise<void>;
@@ -36,18 +25,17 @@ export class PhotoDesk {
   #photos: readonly PhotoInfo[];
   #photo!: PhotoInfo;
   #way: TextureWay = "project";
-  #points: PhotoPoint[] = [];
-  #marks = new Map<string, SVGElement>();
-  #links = svg("path", { class: "links" });
-  #mesh = svg("path", { class: "mesh", id: "mesh" });
-  #overlay = svg("svg", {});
-  #image = h("img", { alt: "The photo", draggable: "false" });
-  #stage: HTMLElement;
+  #view = new PhotoView({
+    moved: () => {
+      if (this.#way !== "warp") this.#choose("warp");
+      this.#warp();
+    },
+    chosen: (name) => (this.#name.textContent = name.replaceAll("_", " ")),
+  });
   #strip = h("div", { class: "strip", role: "group", "aria-label": "Photos of this person" });
   #ways = new Map<TextureWay, HTMLButtonElement>();
   #what = h("p", {});
   #texture = h("img", { alt: "Texture of the photo", id: "texture" });
-  #loupe = h("canvas", { class: "loupe", width: LOUPE, height: LOUPE, hidden: true });
   #name = h("p", { class: "point" });
   #warp = settled(() => void this.#show(), 60);
   #busy = false;
@@ -59,7 +47,6 @@ export class PhotoDesk {
     private actions: PhotoActions,
   ) {
     this.#photos = photos;
-    this.#stage = h("div", { class: "photo" }, this.#image, this.#overlay, this.#loupe);
     const ways = h("div", { class: "tabs two", role: "group", "aria-label": "How the texture is made" });
     for (const { way, label, what } of WAYS) {
       const button = h("button", { title: what, onclick: () => this.#choose(way) }, label);
@@ -69,7 +56,7 @@ export class PhotoDesk {
     const button = (label: string, act: () => void, more = {}) => h("button", { onclick: act, ...more }, label);
     this.#box = dialog("Photo and its points", "desk",
       h("div", { class: "sides" },
-        h("div", { class: "seen" }, this.#stage, this.#strip),
+        h("div", { class: "seen" }, this.#view.element, this.#strip),
         h("div", { class: "made" }, ways, this.#texture, this.#what, this.#name)),
       h("footer", {},
         button("Save points", () => void this.#keep()),
@@ -94,17 +81,8 @@ export class PhotoDesk {
 
   #turnTo(photo: PhotoInfo): void {
     this.#photo = photo;
-    this.#points = [...photo.points];
-    const { width, height } = photo;
-    this.#image.src = api.photoUrl(photo.id);
-    this.#overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.#overlay.replaceChildren(this.#mesh, this.#links);
-    this.#marks.clear();
-    for (const { name } of this.#points) this.#addMark(name, Math.max(width, height) / 110);
-    this.#stage.style.setProperty("--aspect", String(width / height));
+    this.#view.show(photo);
     this.#fillStrip();
-    this.#drawMesh(photo.mesh);
-    this.#place();
     this.#say();
     void this.#show();
   }
@@ -120,7 +98,11 @@ export class PhotoDesk {
       class: "quiet", title: "Make the face without this photo", disabled: this.#photos.length < 2,
       onclick: () => void this.#without(),
     }, "Leave out");
-    this.#strip.replaceChildren(...this.#photos.map(thumb), add, ...(this.#photos.length > 1 ? [less] : []));
+    const frame = h("button", {
+      class: "quiet", id: "frame", title: "The face or the whole photo (double-click it); wheel or pinch to zoom",
+      onclick: () => this.#view.turn(),
+    }, "Face or all");
+    this.#strip.replaceChildren(...this.#photos.map(thumb), add, frame, ...(this.#photos.length > 1 ? [less] : []));
   }
 
   #ask(): void {
@@ -148,117 +130,24 @@ export class PhotoDesk {
     this.#way = way;
     for (const [name, button] of this.#ways) button.setAttribute("aria-pressed", String(name === way));
     this.#what.textContent = WAYS.find((each) => each.way === way)!.what;
-    this.#stage.classList.toggle("warped", way === "warp");
+    this.#view.element.classList.toggle("warped", way === "warp");
     if (this.#photo) void this.#show();
   }
 
   #say(): void {
     const { notes } = this.#photo;
-    this.#name.textContent = this.#points.length
+    this.#name.textContent = this.#view.points.length
       ? "Drag a point, or choose one and use the arrow keys: the texture is warped by them."
       : (notes.at(-1) ?? "");
   }
 
-  #addMark(name: string, radius: number): void {
-    const mark = svg("circle", { r: radius, tabindex: 0, role: "button", "aria-label": name.replaceAll("_", " "), "data-point": name });
-    mark.addEventListener("pointerdown", (event) => this.#grab(name, mark, event as PointerEvent));
-    mark.addEventListener("keydown", (event) => this.#nudge(name, event as KeyboardEvent));
-    mark.addEventListener("focus", () => (this.#name.textContent = name.replaceAll("_", " ")));
-    this.#marks.set(name, mark);
-    this.#overlay.append(mark);
-  }
-
-  #grab(name: string, mark: SVGElement, event: PointerEvent): void {
-    event.preventDefault();
-    mark.focus();
-    mark.setPointerCapture(event.pointerId);
-    const move = (at: PointerEvent) => {
-      const frame = this.#overlay.getBoundingClientRect();
-      this.#move(name,
-        ((at.clientX - frame.left) / frame.width) * this.#photo.width,
-        ((at.clientY - frame.top) / frame.height) * this.#photo.height);
-    };
-    const end = () => {
-      mark.removeEventListener("pointermove", move);
-      this.#loupe.hidden = true;
-    };
-    mark.addEventListener("pointermove", move);
-    mark.addEventListener("lostpointercapture", end, { once: true });
-  }
-
-  #nudge(name: string, event: KeyboardEvent): void {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    const far = (event.shiftKey ? 10 : 1) * Math.max(0.25, this.#photo.width / 1024);
-    const { x, y } = this.#points.find((point) => point.name === name)!;
-    this.#move(name, x + far * step[0]!, y + far * step[1]!);
-  }
-
-  #move(name: string, x: number, y: number): void {
-    const at = { name, x: clamp(x, 0, this.#photo.width), y: clamp(y, 0, this.#photo.height) };
-    this.#points = this.#points.map((point) => (point.name === name ? at : point));
-    this.#place();
-    this.#magnify(at);
-    if (this.#way !== "warp") this.#choose("warp");
-    this.#warp();
-  }
-
   #reset(): void {
-    this.#points = [...this.#photo.points];
-    this.#place();
+    this.#view.reset();
     this.#warp();
-  }
-
-  #place(): void {
-    for (const { name, x, y } of this.#points) {
-      const mark = this.#marks.get(name)!;
-      mark.setAttribute("cx", String(x));
-      mark.setAttribute("cy", String(y));
-    }
-    const at = (n: number) => `${this.#points[n]!.x} ${this.#points[n]!.y}`;
-    let path = "";
-    for (let n = 0; n < Math.min(GRID * GRID, this.#points.length); n++) {
-      if ((n + 1) % GRID) path += `M${at(n)}L${at(n + 1)}`;
-      if (n + GRID < GRID * GRID) path += `M${at(n)}L${at(n + GRID)}`;
-    }
-    this.#links.setAttribute("d", path);
-  }
-
-  // The 7 x 7 nodes of Fig. 6, row after row.
-  #drawMesh(nodes: PhotoInfo["mesh"]): void {
-    const at = (n: number) => `${nodes[n]![0]} ${nodes[n]![1]}`;
-    let path = "";
-    for (let n = 0; n < nodes.length; n++) {
-      if ((n + 1) % NODES) path += `M${at(n)}L${at(n + 1)}`;
-      if (n + NODES < nodes.length) path += `M${at(n)}L${at(n + NODES)}`;
-    }
-    this.#mesh.setAttribute("d", path);
-  }
-
-  // What is under the finger, four times as large as on the screen.
-  #magnify({ x, y }: PhotoPoint): void {
-    const frame = this.#overlay.getBoundingClientRect();
-    const scale = frame.width / this.#photo.width;
-    const half = LOUPE / (2 * ZOOM * scale);
-    const pen = this.#loupe.getContext("2d")!;
-    pen.fillStyle = "#000";
-    pen.fillRect(0, 0, LOUPE, LOUPE);
-    pen.drawImage(this.#image, x - half, y - half, 2 * half, 2 * half, 0, 0, LOUPE, LOUPE);
-    pen.strokeStyle = "#ffffffcc";
-    pen.beginPath();
-    pen.moveTo(LOUPE / 2, LOUPE / 2 - 14);
-    pen.lineTo(LOUPE / 2, LOUPE / 2 + 14);
-    pen.moveTo(LOUPE / 2 - 14, LOUPE / 2);
-    pen.lineTo(LOUPE / 2 + 14, LOUPE / 2);
-    pen.stroke();
-    const right = x * scale > frame.width / 2;
-    this.#loupe.classList.toggle("left", right);
-    this.#loupe.hidden = false;
   }
 
   get #chosen(): Record<string, readonly number[]> {
-    return Object.fromEntries(this.#points.map(({ name, x, y }) => [name, [x, y]]));
+    return Object.fromEntries(this.#view.points.map(({ name, x, y }) => [name, [x, y]]));
   }
 
   async #show(): Promise<void> {
@@ -270,7 +159,7 @@ export class PhotoDesk {
     try {
       const warped = this.#way === "warp";
       const blob = await api.texture(this.#ids, this.#way, this.#chosen);
-      if (warped) this.#drawMesh((await api.photoMesh(this.#photo.id, this.#chosen)).mesh);
+      if (warped) this.#view.drawMesh((await api.photoMesh(this.#photo.id, this.#chosen)).mesh);
       const old = this.#texture.src;
       this.#texture.src = URL.createObjectURL(blob);
       this.#texture.dataset.way = warped ? "warp" : "project";

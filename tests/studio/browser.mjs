@@ -5,7 +5,8 @@
 import { spawn } from "node:child_process";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { flows } from "./flows.mjs";
+import { flows, help, VISIBLE } from "./flows.mjs";
+import { touched } from "./touch.mjs";
 
 const require = createRequire(join(import.meta.dirname, "..", "browser", "package.json"));
 const { chromium } = require("playwright-core");
@@ -68,6 +69,7 @@ try {
   };
   await page.goto(home);
   const report = await flows(page, { folder, gone, expecting: (value) => (expected = value) });
+  report.touch = await touched(browser, home, help, VISIBLE);
   console.log(JSON.stringify({ ...report, complaints }));
 } finally {
   await browser.close();

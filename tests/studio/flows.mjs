@@ -3,7 +3,7 @@ import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 
 // Of 256 levels of a colour: what a change must reach to be seen.
-const VISIBLE = 8;
+export const VISIBLE = 8;
 
 export async function flows(page, { folder, gone, expecting }) {
   const report = {};
@@ -66,7 +66,7 @@ async function toured(page) {
 }
 
 // Functions of the page for the flows below.
-function help(visible) {
+export function help(visible) {
   window.pixels = () => {
     viewer.drawNow();
     const gl = viewer.renderer.getContext();

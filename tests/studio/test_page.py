@@ -375,3 +375,54 @@ def test_a_lost_graphics_card_is_told_of_and_comes_back(report) -> None:
 def test_a_reload_loses_nothing(report) -> None:
     assert report["recovered"]["after"] == report["recovered"]["before"]
     assert report["recovered"]["before"][0] > 5
+
+
+def test_fingers_turn_zoom_and_move_the_stage(report) -> None:
+    stage = report["touch"]["stage"]
+    before, turned, pinched, moved = (stage[n] for n in ("before", "turned", "pinched", "moved"))
+    assert min(each["changed"] for each in (turned, pinched, moved)) > 1000
+    assert turned["azimuth"] - before["azimuth"] < -0.3
+    assert turned["distance"] == pytest.approx(before["distance"])
+    assert turned["target"] == pytest.approx(before["target"])
+    assert pinched["distance"] < 0.75 * before["distance"]
+    assert pinched["azimuth"] == pytest.approx(turned["azimuth"], abs=0.02)
+    assert moved["distance"] == pytest.approx(pinched["distance"], rel=0.02)
+    # The fingers go down 70 pixels and the face with them: the camera looks at a place above it.
+    # The first of six moves says only that there are two fingers.
+    metres = 2.0 * pinched["distance"] * math.tan(math.radians(11.0)) / pinched["height"]
+    up = moved["target"][1] - pinched["target"][1]
+    assert up == pytest.approx(70 * metres, rel=0.25)
+
+
+def test_a_finger_drags_a_point_of_a_curve_and_nothing_turns(report) -> None:
+    sculpt = report["touch"]["sculpt"]
+    assert sculpt["label"].startswith("Curve")
+    assert sculpt["turned"] == 0
+    down = sculpt["live"]["y"] - sculpt["before"]["y"]
+    assert down == pytest.approx(30, abs=3)
+    assert sculpt["after"]["y"] == pytest.approx(sculpt["live"]["y"], abs=0.5)
+
+
+def test_fingers_magnify_and_move_the_photo_and_drag_its_points(report) -> None:
+    photo = report["touch"]["photo"]
+    whole, pinched, moved = (np.array(photo[n]) for n in ("whole", "pinched", "moved"))
+    assert whole[:2] == pytest.approx(0)
+    assert pinched[2] == pytest.approx(whole[2] / 2.5, rel=0.05)
+    pixel = pinched[2] / photo["wide"]
+    np.testing.assert_allclose(moved - pinched, [-30 * pixel, -40 * pixel, 0, 0], atol=2 * pixel)
+    assert photo["over"][2] == pytest.approx(photo["face"][2] / 2.0, rel=0.05)
+    assert photo["loupe"] and photo["gone"]
+    pixel = photo["face"][2] / photo["wide"]
+    by = np.subtract(photo["dragged"], photo["point"])
+    np.testing.assert_allclose(by, [20 * pixel, 10 * pixel], atol=1.5 * pixel)
+    assert photo["still"] == photo["face"]
+
+
+def test_fingers_magnify_and_move_the_photo_behind_the_face(report) -> None:
+    behind = report["touch"]["behind"]
+    assert behind["magnified"] == pytest.approx(2.0, rel=0.02)
+    assert behind["moved"] == pytest.approx([30, 20], abs=1)
+
+
+def test_everything_is_within_reach_on_a_tablet(report) -> None:
+    assert report["touch"]["layout"] == [[], []]
