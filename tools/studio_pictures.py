@@ -51,8 +51,8 @@ def write_files(folder: Path, scan: Path | None) -> dict[str, str]:
         files["scan"] = scan
     else:
         pdeface.export(pdeface.random(7), files["scan"], mesh=(217, 321))
-    frames = np.linspace(0.0, 1.0, 60)
-    lines = [f"00:00:01:{n:02d}.000,61,{np.sin(7 * t) ** 2:.3f},{t:.3f}" for n, t in enumerate(frames)]
+    jaw = np.sin(np.linspace(0.0, 7.0, 60)) ** 2
+    lines = [f"00:00:01:{n:02d}.000,61,{open_:.3f},{n / 59:.3f}" for n, open_ in enumerate(jaw)]
     text = "\n".join(["Timecode,BlendshapeCount,JawOpen,MouthSmileLeft", *lines])
     files["recording"].write_text(text + "\n", encoding="utf-8")
     files["wrong"].write_text("no face at all\n", encoding="utf-8")

@@ -147,11 +147,13 @@ export const SCENES = [
   },
   { name: "photo-fitted", leave: ({ page }) => page.evaluate(() => document.querySelector("#toasts").replaceChildren()) },
   {
-    name: "scan-fitting", enter: both(open("scan"), ({ page }) => page.waitForFunction(() => document.querySelector("progress")?.value > 0.4, null, { polling: 50 })),
-    leave: both(({ page }) => page.waitForFunction(() => scan.info, null, { polling: 100 }), label("Open")),
+    name: "scan-fitting", enter: both(open("scan"), ({ page }) => page.waitForFunction(() => files.fitting?.rounds > 0, null, { polling: 20 })),
+  },
+  { name: "scan-fitting-later", enter: ({ page }) => page.waitForFunction(() => files.fitting.rounds > 11, null, { polling: 20 }),
+    always: true, leave: both(({ page }) => page.waitForFunction(() => scan.info, null, { polling: 100 }), label("Open")),
   },
   { name: "scan", enter: ({ page }) => page.waitForTimeout(2500) },
-  { name: "scan-veil", enter: both(button("Scan"), ({ page }) => page.waitForTimeout(1200)), leave: both(button("Scan"), button("Without the scan")) },
+  { name: "scan-veil", enter: both(button("Show scan"), ({ page }) => page.waitForTimeout(1200)), leave: both(button("Show scan"), button("Without the scan")) },
   {
     name: "server-gone", enter: async ({ page, stop }) => {
       await stop();

@@ -1,13 +1,16 @@
 // Files opened or dropped: sent to the server, which finds out by itself what they are.
 
-import { api } from "./api";
+import { api, type Packet } from "./api";
 import { h } from "./dom";
+import { Fitting } from "./fitting";
 import type { Jobs } from "./jobs";
 import type { ClipInfo, JobInfo, PhotoInfo, ScanInfo } from "./schema";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
 export class Files {
+  // The scan that was fitted last, while it was.
+  fitting: Fitting | null = null;
   #progress = h("div", { class: "progress", role: "status", hidden: true });
 
   constructor(
@@ -75,18 +78,30 @@ export class Files {
   }
 
   #watch(job: JobInfo, name: string, label: string): void {
+    let fitting: Fitting | null = null;
+    const seen = (packet: Packet) => {
+      fitting ??= this.fitting = new Fitting(this.studio.viewer);
+      fitting.show(packet);
+    };
     this.jobs.watch(job, ({ state, message, share, face, photos, scan }) => {
       // Over a dialogue that is open, if one is.
       (document.querySelector<HTMLElement>("dialog[open]") ?? this.stage).append(this.#progress);
       this.#progress.hidden = state !== "running";
       this.#progress.replaceChildren(h("span", { class: "spinner" }), h("div", {},
         `${name}: ${message}…`, h("progress", { value: share, "aria-label": "How far it is" })));
-      if (state === "failed") toast(new Error(message));
+      if (state === "failed") {
+        fitting?.end();
+        toast(new Error(message));
+      }
       if (state !== "done" || !face) return;
-      void this.studio.adopt({ ...face, name }, label).then(() => scan && this.onScan(scan));
+      const there = () => {
+        fitting?.end();
+        if (scan) this.onScan(scan);
+      };
+      void this.studio.adopt({ ...face, name }, label).then(() => this.studio.arrival(face.id)).then(there);
       for (const note of photos.flatMap(({ notes }) => notes)) toast(note);
       if (photos.length) this.onPhotos(photos);
-    });
+    }, seen);
   }
 }
 

@@ -1,13 +1,16 @@
 // Jobs of the server, told of over one websocket, which is opened anew whenever it is lost.
 
+import { unpacked, type Packet } from "./packet";
 import type { JobInfo } from "./schema";
 
 type Watcher = (job: JobInfo) => void;
+type Onlooker = (packet: Packet) => void;
 
 const AGAIN = 1500;
 
 export class Jobs {
   #watchers = new Map<string, Watcher>();
+  #onlookers = new Map<string, Onlooker>();
   // A job may be done before its number is known to the page.
   #latest = new Map<string, JobInfo>();
 
@@ -16,8 +19,10 @@ export class Jobs {
     this.#connect(false);
   }
 
-  watch(job: JobInfo, watcher: Watcher): void {
+  // seen: what a job shows of what it has made so far.
+  watch(job: JobInfo, watcher: Watcher, seen: Onlooker): void {
     this.#watchers.set(job.id, watcher);
+    this.#onlookers.set(job.id, seen);
     this.#tell(this.#latest.get(job.id) ?? job);
   }
 
@@ -25,13 +30,23 @@ export class Jobs {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/api/jobs`);
     if (again) socket.addEventListener("open", () => this.onBack());
-    socket.addEventListener("message", (event) => this.#tell(JSON.parse(event.data as string)));
+    socket.binaryType = "arraybuffer";
+    socket.addEventListener("message", ({ data }) => {
+      if (data instanceof ArrayBuffer) this.#show(unpacked(data));
+      else this.#tell(JSON.parse(data as string));
+    });
     socket.addEventListener("close", () => setTimeout(() => this.#connect(true), AGAIN));
+  }
+
+  #show(packet: Packet): void {
+    this.#onlookers.get(packet.header.job as string)?.(packet);
   }
 
   #tell(job: JobInfo): void {
     this.#latest.set(job.id, job);
     this.#watchers.get(job.id)?.(job);
-    if (job.state !== "running") this.#watchers.delete(job.id);
+    if (job.state === "running") return;
+    this.#watchers.delete(job.id);
+    this.#onlookers.delete(job.id);
   }
 }

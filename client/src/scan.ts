@@ -33,7 +33,7 @@ export class ScanView {
   show(info: ScanInfo): void {
     this.#unveil();
     this.info = info;
-    const veil = h("button", { class: "quiet", id: "veil", "aria-pressed": "false", title: "The scan itself, over the face", onclick: () => void this.#toggle(veil) }, "Show scan");
+    const show = h("button", { class: "quiet", id: "veil", "aria-pressed": "false", title: "The scan itself, over the face", onclick: () => void this.#toggle(show) }, "Show scan");
     const close = h("button", { class: "icon-only", title: "Without the scan", "aria-label": "Without the scan", onclick: () => this.close() }, icon("close"));
     const bar = h("div", { class: "scale", role: "img", "aria-label": `Colours from 0 to ${FULL} millimetre and more` });
     bar.style.background = `linear-gradient(to right, ${SCALE.join(", ")})`;
@@ -45,7 +45,7 @@ export class ScanView {
         h("span", { title: "Root mean square over the front of the face" }, `RMS ${number(info.rms)} mm`),
         h("span", {}, `median ${number(info.median)}`),
         h("span", { title: "Share of the face's front that the scan has" }, `${Math.round(100 * info.coverage)} % covered`)),
-      veil, close);
+      show, close);
     this.tools.offer("distance", true);
     this.tools.mode("distance");
     this.#follow();
@@ -96,7 +96,7 @@ export class ScanView {
     else if (this.info) {
       try {
         const { arrays } = await api.scan(this.info.id);
-        this.#veil = drawn(arrays.get("vertices") as Float32Array, arrays.get("triangles") as Int32Array);
+        this.#veil = veil(arrays.get("vertices") as Float32Array, arrays.get("triangles") as Int32Array);
         this.studio.viewer.scene.add(this.#veil);
       } catch (error) {
         toast(error);
@@ -114,7 +114,8 @@ export class ScanView {
   }
 }
 
-function drawn(vertices: Float32Array, triangles: Int32Array): THREE.Object3D {
+// A scan that is seen through; a cloud as its points.
+export function veil(vertices: Float32Array, triangles: Int32Array): THREE.Object3D {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(vertices, 3));
   if (triangles.length === 0) {

@@ -229,6 +229,19 @@ export class Studio extends EventTarget {
     return this.#retold(() => api.save(face, name, weights));
   }
 
+  // The face is on the stage, or another one is wanted meanwhile.
+  arrival(face: string): Promise<void> {
+    return new Promise((there) => {
+      const look = () => {
+        if (this.#shown !== face && this.timeline.doc.face === face) return;
+        this.removeEventListener("exact", look);
+        there();
+      };
+      this.addEventListener("exact", look);
+      look();
+    });
+  }
+
   // Something beside the stage has been opened or closed.
   tellDoors(): void {
     this.dispatchEvent(new Event("doors"));

@@ -10,6 +10,8 @@ import pdeface
 from pdeface.errors import InputError
 from pdeface.scan import Landmarks, fit_scan, make_scan, measure, texture_of
 from pdeface.scan.alignment import align
+from pdeface.scan.fields import normals
+from pdeface.scan.nearest import Target
 from pdeface.template import row_u
 
 from .conftest import scanned
@@ -158,3 +160,17 @@ def test_alignment_finds_where_the_face_is(known) -> None:
     assert found.scale == pytest.approx(0.2, rel=0.06)
     angle = np.degrees(np.arccos((np.trace(found.rotation @ turn) - 1.0) / 2.0))
     assert angle < 3.0
+
+
+def test_a_fit_can_be_watched(known) -> None:
+    """Each round leaves the face nearer to the scan, and the last one on it."""
+    rounds = []
+    fit_scan(
+        known.scan, (28, 46), landmarks=known.landmarks,
+        on_round=lambda scan, points: rounds.append((Target(scan), points)),
+    )  # fmt: skip
+    assert len(rounds) > 12
+    away = [np.median(target.nearest(p.reshape(-1, 3), normals(p).reshape(-1, 3)).away)
+            for target, p in rounds[::6] + rounds[-1:]]  # fmt: skip
+    assert away[-1] < away[0] / 20
+    assert (np.diff(away) < 1e-6).all()

@@ -113,7 +113,10 @@ def finished(client: TestClient) -> Callable[[str, str], dict[str, Any]]:
     def waited(job: str, state: str) -> dict[str, Any]:
         with client.websocket_connect("ws://127.0.0.1:8640/api/jobs") as socket:
             while True:
-                told = socket.receive_json()
+                message = socket.receive()
+                if "text" not in message:  # what the job shows meanwhile
+                    continue
+                told = json.loads(message["text"])
                 if told["id"] == job and told["state"] != "running":
                     assert told["state"] == state, told["message"]
                     return told

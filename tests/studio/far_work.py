@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 
+import numpy as np
+
 from pdeface.errors import InputError
 
 
 def doubled(tell, value):
     tell("begun")
     tell("half way", 0.5)
+    tell.show({"face": np.full(2, value)})
     return 2 * value, os.getpid()
 
 

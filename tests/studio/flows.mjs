@@ -505,13 +505,23 @@ async function scanned(page, folder) {
     const watch = new MutationObserver(() => told.push(document.querySelector(".progress").textContent));
     watch.observe(document.querySelector(".progress"), { childList: true });
     const data = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    window.onTheWay = [];
+    const look = () => {
+      const { fitting } = files;
+      if (fitting?.rounds) onTheWay.push([fitting.rounds, studio.head.root.visible, changed(before, pixels())]);
+      if (!scan.info) setTimeout(look, 400);
+    };
+    window.before = pixels();
     await files.take(new File([data], "person.ply"));
+    look();
   }, bytes);
   const measured = () => page.waitForFunction(() => exact() && viewer.display.distances?.length === studio.head.skin.count, null, { polling: 50 });
   await page.waitForFunction(() => scan.info, null, { polling: 50 });
   await measured();
   await page.waitForTimeout(500);
   const found = { steps: await page.evaluate(() => told.length), name: await page.evaluate(() => studio.doc.name) };
+  found.watched = await page.evaluate(() => onTheWay);
+  found.left = await page.evaluate(() => [studio.head.root.visible, viewer.scene.getObjectsByProperty("type", "Group").filter((group) => group.children.some(({ type }) => type === "LineSegments")).length]);
   found.legend = await page.locator(".legend").textContent();
   found.mode = await page.evaluate(() => viewer.display.mode);
   found.away = await page.evaluate(() => [...viewer.display.distances]);

@@ -23,11 +23,14 @@ def work(monkeypatch):
 
 
 def test_it_is_done_elsewhere_and_tells_how_far_it_is(work) -> None:
-    told = []
-    value, process = apart(work.doubled, 21, tell=lambda text, share: told.append((text, share)))
+    told, shown = [], []
+    value, process = apart(
+        work.doubled, 21, tell=lambda text, share: told.append((text, share)), show=shown.append
+    )
     assert value == 42
     assert process != os.getpid()
     assert told == [("begun", 0.0), ("half way", 0.5)]
+    assert [each["face"].tolist() for each in shown] == [[21, 21]]
 
 
 def test_errors_come_back_as_they_are_or_as_their_text(work) -> None:

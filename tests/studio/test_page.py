@@ -313,6 +313,11 @@ def test_a_scan_is_fitted_and_measured(report) -> None:
     scan = report["scan"]
     assert scan["steps"] > 4
     assert (scan["name"], scan["mode"]) == ("person", "distance")
+    rounds, faces, moved = zip(*scan["watched"], strict=True)
+    assert max(rounds) > 15, "the face was seen on its way"
+    assert not any(faces[:-1])
+    assert max(moved) > 5000
+    assert scan["left"] == [True, 0]
     assert "RMS 0." in scan["legend"]
     near, far = (np.array(scan[moment]) for moment in ("away", "farther"))
     assert np.median(near[near >= 0]) < 0.1

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import threading
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from starlette.applications import Starlette
+from starlette.testclient import TestClient
 
 import pdeface
-from pdeface.studio.scans import scan_suffix
+from pdeface.errors import InputError
+from pdeface.scan import Scan
+from pdeface.studio.jobs import Jobs, job_routes
+from pdeface.studio.scans import Watched, scan_suffix
 
 
 @pytest.mark.parametrize("suffix", [".ply", ".obj", ".stl", ".glb"])
@@ -65,6 +73,41 @@ def test_a_scan_becomes_a_face_that_is_measured_against_it(
     assert np.ptp(drawn["vertices"], axis=0) == pytest.approx(
         np.ptp(person.mesh(109, 161).vertices, axis=0), rel=0.05
     )
+
+
+def test_a_fit_is_shown_round_by_round() -> None:
+    """The scan once; then places of the face, whichever grid the round has."""
+    shown = []
+    scan = Scan(np.eye(3), np.array([[0, 1, 2]]))
+    teller = SimpleNamespace(show=shown.append)
+    watched = Watched(teller)
+    for rows, columns in ((55, 46), (217, 184)):
+        u, v = np.linspace(0.0, 1.0, rows), (np.arange(columns) + 0.5) / columns
+        across, down = np.meshgrid(v, u)
+        watched(scan, np.stack([across, down, across - down], axis=-1))
+    first, coarse, fine = shown
+    assert set(first) == {"vertices", "triangles"}
+    assert coarse["face"].dtype == np.float32
+    assert coarse["face"].shape == (55, 46, 3)
+    np.testing.assert_allclose(fine["face"], coarse["face"], atol=1e-6)
+
+
+def test_what_a_job_shows_is_sent_to_the_page(unpack) -> None:
+    jobs = Jobs()
+    ready = threading.Event()
+
+    def work(tell):
+        ready.wait(10)
+        tell.show({"face": np.arange(3.0)})
+        raise InputError("enough")
+
+    app = Starlette(routes=job_routes(jobs))
+    with TestClient(app) as page, page.websocket_connect("/api/jobs") as socket:
+        info = jobs.start("looking", work)
+        assert socket.receive_json()["message"] == "looking"
+        ready.set()
+        assert unpack(socket.receive_bytes())["face"].tolist() == [0, 1, 2]
+        assert socket.receive_json()["id"] == info.id
 
 
 def test_a_scan_that_is_not_there_is_told_of(client, visitor) -> None:

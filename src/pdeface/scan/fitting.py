@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -23,6 +24,7 @@ __all__ = ["ScanFit", "Units", "fit_scan"]
 
 FloatArray = NDArray[np.float64]
 Progress = Callable[[str], None]
+OnRound = Callable[[Scan, FloatArray], None]
 Units = Literal["m", "cm", "mm"]
 
 METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001}
@@ -84,6 +86,7 @@ def fit_scan(
     rounded: bool | None = None,
     model: PathLike | None = None,
     progress: Progress | None = None,
+    on_round: OnRound | None = None,
 ) -> ScanFit:
     """Curves whose surface lies on a scan, with rows and columns on its features.
 
@@ -97,6 +100,9 @@ def fit_scan(
             it is shaded, instead of their flat faces; None for that from triangles of 4 mm on.
         model: MediaPipe's model; None for the one that :func:`pdeface.photo.model_file` finds.
         progress: called with a line of text before each step.
+        on_round: called after each round of the fit, with the scan about in the frame of the face,
+            and with (U, V, 3) places of the face as it lies on the scan by then: u from 0 to 1, v
+            at (j + 1/2) pi / V, metres.
 
     Raises:
         InputError: a level that there is not, or no face in the scan.
@@ -115,7 +121,8 @@ def fit_scan(
     moved = outside(scan.moved(alignment.rotation, alignment.scale, alignment.shift))
     own = Landmarks(landmarks.uv, alignment.apply(landmarks.points), landmarks.trust)
     say("laying the face onto the scan")
-    registered = register(moved, own, alignment.weights, rounded=rounded)
+    watch = partial(on_round, moved) if on_round else lambda points: None
+    registered = register(moved, own, alignment.weights, rounded=rounded, on_round=watch)
     if registered.trust.mean() < _MET:
         raise InputError(
             f"only {100 * registered.trust.mean():.0f} per cent of a face lies on the scan; give "

@@ -8,6 +8,7 @@ the scan has a hole, or hair, the surface around it is carried on.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -81,7 +82,12 @@ and how far from that, metres, it is half-way on its way there."""
 
 
 def lay(
-    start: FloatArray, scan: Scan, landmarks: Landmarks, *, rounded: bool = False
+    start: FloatArray,
+    scan: Scan,
+    landmarks: Landmarks,
+    *,
+    rounded: bool = False,
+    on_round: Callable[[FloatArray], None] = lambda points: None,
 ) -> tuple[FloatArray, FloatArray]:
     """Lay a face onto a scan.
 
@@ -90,6 +96,7 @@ def lay(
         scan: its outside, in the frame of the template.
         landmarks: in that frame.
         rounded: onto the curved surface that its triangles stand for, not onto their flat faces.
+        on_round: given the (U, V, 3) grid after each move.
 
     Returns:
         (U, V, 3) the grid on the scan, and (U, V) how well it was met, 0 in holes to 1.
@@ -102,9 +109,11 @@ def lay(
             points = fitted_nostrils(points, target)
         for _ in range(stage.rounds):
             points = points + _move(points, stage, target, landmarks, known, _SLIDE, bend)
+            on_round(points)
     detailed = not scan.is_cloud or _LAST.width * _ROW > _DETAIL * scan.spacing
     for _ in range(_LAST.rounds if detailed else 0):
         points = points + _move(points, _LAST, target, landmarks, known, 0.0, bend)
+        on_round(points)
     points = _with_fair_rim(points, start)
     facing = normals(points).reshape(-1, 3)
     found = target.nearest(points.reshape(-1, 3), facing)

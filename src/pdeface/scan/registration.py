@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from pdeface.scan.thinning import thinned
 __all__ = ["Registered", "register"]
 
 FloatArray = NDArray[np.float64]
+OnRound = Callable[[FloatArray], None]
 
 COARSE, FINE = (55, 46), (217, 184)
 """Rows and columns on which identity is found, and on which the surface is laid."""
@@ -62,7 +64,12 @@ class Registered:
 
 
 def register(
-    scan: Scan, landmarks: Landmarks, weights: FloatArray, *, rounded: bool | None = None
+    scan: Scan,
+    landmarks: Landmarks,
+    weights: FloatArray,
+    *,
+    rounded: bool | None = None,
+    on_round: OnRound = lambda points: None,
 ) -> Registered:
     """Lay the face onto a scan.
 
@@ -71,21 +78,29 @@ def register(
         landmarks: in that frame.
         weights: first identity.
         rounded: as for :func:`pdeface.scan.laying.lay`; None for it where triangles are coarse.
+        on_round: given the (U, V, 3) face after each round, in the frame of the scan as given.
     """
     target = Target(thinned(scan, _COARSEST) if len(scan.vertices) > _MANY else scan, _BREADTH)
-    rotation, shift, weights = identity(target, landmarks, weights)
+    rotation, shift, weights = identity(target, landmarks, weights, on_round)
     scan = scan.moved(rotation, 1.0, shift)
     points = landmarks.points @ rotation.T + shift
     face = grid(*FINE)
     if rounded is None:
         rounded = not scan.is_cloud and scan.spacing > _COARSE
     marks = Landmarks(landmarks.uv, points, landmarks.trust)
-    laid, trust = lay(face.of(weights), scan, marks, rounded=rounded)
+
+    def back(points: FloatArray) -> None:
+        on_round((points - shift) @ rotation)
+
+    laid, trust = lay(face.of(weights), scan, marks, rounded=rounded, on_round=back)
     return Registered(scan, rotation, shift, weights, laid, trust, rounded)
 
 
 def identity(
-    target: Target, landmarks: Landmarks, weights: FloatArray
+    target: Target,
+    landmarks: Landmarks,
+    weights: FloatArray,
+    on_round: OnRound = lambda points: None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Rigid motion of the scan and identity weights that bring face and scan together.
 
@@ -115,6 +130,7 @@ def identity(
         weights = (weights + step[:IDENTITIES]).clip(-4.0, 4.0)
         turn = _rotation(step[IDENTITIES : IDENTITIES + 3])
         rotation, shift = turn @ rotation, turn @ shift + step[IDENTITIES + 3 :]
+        on_round((face.of(weights) - shift) @ rotation)
     return rotation, shift, weights
 
 

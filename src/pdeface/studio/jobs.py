@@ -9,13 +9,14 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
 from typing import Protocol
 
 from starlette.routing import BaseRoute, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from pdeface.errors import PDEFaceError
+from pdeface.studio.apart import Arrays
+from pdeface.studio.packets import pack_arrays
 from pdeface.studio.schema import FaceInfo, JobInfo, PhotoInfo, ScanInfo
 
 __all__ = ["Jobs", "Result", "Tell", "job_routes"]
@@ -27,6 +28,9 @@ class Tell(Protocol):
     def __call__(self, text: str, share: float = 0.0) -> None:
         """Tell it."""
 
+    def show(self, arrays: Arrays) -> None:
+        """Show it what has been made so far."""
+
 
 @dataclass(frozen=True)
 class Result:
@@ -36,6 +40,9 @@ class Result:
     photos: Sequence[PhotoInfo] = ()
     scan: ScanInfo | None = None
 
+
+Message = JobInfo | bytes
+"""What a page is sent: how far a job has come, or a packet of what it shows."""
 
 _KEPT = 64
 
@@ -47,7 +54,7 @@ class Jobs:
         self._pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="pdeface-job")
         self._lock = threading.Lock()
         self._infos: dict[str, JobInfo] = {}
-        self._listeners: dict[asyncio.Queue[JobInfo], asyncio.AbstractEventLoop] = {}
+        self._listeners: dict[asyncio.Queue[Message], asyncio.AbstractEventLoop] = {}
 
     def start(self, message: str, work: Callable[[Tell], Result]) -> JobInfo:
         """Begin a job as soon as the one before is done.
@@ -63,7 +70,7 @@ class Jobs:
 
     def _run(self, info: JobInfo, work: Callable[[Tell], Result]) -> None:
         try:
-            made = work(partial(self._progress, info))
+            made = work(_Telling(self, info))
             done = dataclasses.replace(info, state="done", share=1.0, face=made.face)
             self._tell(dataclasses.replace(done, photos=list(made.photos), scan=made.scan))
         except Exception as error:  # whatever it is, the page must not wait for ever
@@ -72,22 +79,23 @@ class Jobs:
             message = " ".join(text.split())
             self._tell(dataclasses.replace(info, state="failed", message=message))
 
-    def _progress(self, info: JobInfo, text: str, share: float = 0.0) -> None:
-        self._tell(dataclasses.replace(info, message=text, share=share))
-
     def _tell(self, info: JobInfo) -> None:
         with self._lock:
             self._infos[info.id] = info
             while len(self._infos) > _KEPT:
                 del self._infos[next(iter(self._infos))]
+        self._send(info)
+
+    def _send(self, message: Message) -> None:
+        with self._lock:
             listeners = list(self._listeners.items())
         for queue, loop in listeners:
-            loop.call_soon_threadsafe(queue.put_nowait, info)
+            loop.call_soon_threadsafe(queue.put_nowait, message)
 
     async def listen(self, websocket: WebSocket) -> None:
         """Tell one page of every job, the latest first of all."""
         await websocket.accept()
-        queue: asyncio.Queue[JobInfo] = asyncio.Queue()
+        queue: asyncio.Queue[Message] = asyncio.Queue()
         with self._lock:
             # A page that lost its connection hears what became of its job meanwhile.
             for info in self._infos.values():
@@ -105,9 +113,33 @@ class Jobs:
             sender.cancel()
 
 
-async def _send(websocket: WebSocket, queue: asyncio.Queue[JobInfo]) -> None:
+class _Telling:
+    """What a job says, sent to every page.
+
+    Args:
+        jobs: of which it is.
+        info: what is known of it.
+    """
+
+    def __init__(self, jobs: Jobs, info: JobInfo) -> None:
+        self._jobs, self._info = jobs, info
+
+    def __call__(self, text: str, share: float = 0.0) -> None:
+        self._info = dataclasses.replace(self._info, message=text, share=share)
+        self._jobs._tell(self._info)
+
+    def show(self, arrays: Arrays) -> None:
+        # Only to who is there: it is soon out of date.
+        self._jobs._send(pack_arrays(arrays, job=self._info.id))
+
+
+async def _send(websocket: WebSocket, queue: asyncio.Queue[Message]) -> None:
     while True:
-        await websocket.send_json(dataclasses.asdict(await queue.get()))
+        message = await queue.get()
+        if isinstance(message, bytes):
+            await websocket.send_bytes(message)
+        else:
+            await websocket.send_json(dataclasses.asdict(message))
 
 
 def job_routes(jobs: Jobs) -> list[BaseRoute]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.face import Face
-from pdeface.studio.apart import apart
+from pdeface.studio.apart import Telling, apart
 from pdeface.studio.jobs import Result, Tell
 from pdeface.studio.schema import ScanInfo
 from pdeface.studio.store import FaceStore, Kept
@@ -39,6 +39,7 @@ _STEPS = {
 }
 """The steps of a fit by how they begin, and the share of its time that is over by then."""
 
+_SHOWN_ROWS = 55
 _STL_HEADER, _STL_TRIANGLE = 84, 50
 _BEGINNING = 65536
 
@@ -86,7 +87,9 @@ class ScanDesk:
         """
         from pdeface.scan import Target
 
-        face, scan, there, coverage = apart(_fitted, data, suffix, self._model, tell=tell)
+        face, scan, there, coverage = apart(
+            _fitted, data, suffix, self._model, tell=tell, show=tell.show
+        )
         key = secrets.token_hex(8)
         self._targets.put(key, Target(scan))
         note = f"fitted: RMS {there.rms:.2f} mm from the scan, median {there.median:.2f}"
@@ -119,16 +122,40 @@ class ScanDesk:
         Raises:
             InputError: the scan is not known (any more).
         """
-        scan = self._targets.get(key).scan
-        vertices = scan.vertices.astype(np.float32)
-        if len(vertices) <= MOST_VERTICES:
-            return {"vertices": vertices, "triangles": scan.triangles.astype(np.int32)}
-        step = -(-len(vertices) // MOST_VERTICES)
-        return {"vertices": vertices[::step], "triangles": np.zeros((0, 3), np.int32)}
+        return _drawn(self._targets.get(key).scan)
+
+
+class Watched:
+    """Shows a fit while it is made: the scan once, then the face on it, 55 x 46 places of it.
+
+    Args:
+        telling: where it is shown.
+    """
+
+    def __init__(self, telling: Telling) -> None:
+        self._telling, self._begun = telling, False
+
+    def __call__(self, scan: Scan, points: FloatArray) -> None:
+        """A round of the fit is done: as ``on_round`` of :func:`pdeface.scan.fit_scan`."""
+        if not self._begun:
+            self._telling.show(_drawn(scan))
+            self._begun = True
+        step = (points.shape[0] - 1) // (_SHOWN_ROWS - 1)
+        # Columns lie halfway between places: the coarse ones are means of those around them.
+        middle = points[::step, (step - 1) // 2 :: step] + points[::step, step // 2 :: step]
+        self._telling.show({"face": (0.5 * middle).astype(np.float32)})
+
+
+def _drawn(scan: Scan) -> dict[str, NDArray[np.floating | np.integer]]:
+    vertices = scan.vertices.astype(np.float32)
+    if len(vertices) <= MOST_VERTICES:
+        return {"vertices": vertices, "triangles": scan.triangles.astype(np.int32)}
+    step = -(-len(vertices) // MOST_VERTICES)
+    return {"vertices": vertices[::step], "triangles": np.zeros((0, 3), np.int32)}
 
 
 def _fitted(
-    tell: Tell, data: bytes, suffix: str, model: str | None
+    tell: Telling, data: bytes, suffix: str, model: str | None
 ) -> tuple[Face, Scan, Spread, float]:
     """A scan's face, the scan in its frame, how far they are apart, and the scan's coverage."""
     from pdeface.scan import Scan, fit_scan, measure, read_scan, texture_of
@@ -138,7 +165,11 @@ def _fitted(
         path.write_bytes(data)
         head = read_scan(path)
     given = Path(model) if model else None
-    found = fit_scan(head, model=given, progress=lambda text: tell(text, _share(text)))
+
+    def say(text: str) -> None:
+        tell(text, _share(text))
+
+    found = fit_scan(head, model=given, progress=say, on_round=Watched(tell))
     tell("carrying the colours over", 0.88)
     image = texture_of(found)
     face = found.face.with_name("scan")
