@@ -67,8 +67,7 @@ export const api = {
     packet(post(`${face(id)}/evaluate`, { ...size, states })),
   response: (id: string, size: Size, handles: readonly Handle[], symmetric: boolean) =>
     packet(post(`${face(id)}/response`, { ...size, handles, symmetric })),
-  residuals: (id: string, size: Size, weights: Weights, frames: readonly Weights[]) =>
-    packet(post(`${face(id)}/residuals`, { ...size, weights, frames })),
+  meetings: (id: string, size: Size) => packet(ask(`${face(id)}/meetings?${query(size)}`)),
   edit: (id: string, moves: readonly (readonly number[])[]) =>
     json<FaceInfo>(post(`${face(id)}/edit`, { moves })),
   blend: (id: string, other: string, share: number) =>

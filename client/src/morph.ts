@@ -1,11 +1,23 @@
-// Linear morphing by the processor: S = A + sum (w_k - a_k) D_k, where A is where the server says
-// that the face is at weights a. With a = 0 this is base plus displacements.
+// Morphing by the processor: S = A + sum (w_k - a_k) D_k, where A is where the server says that the
+// face is at weights a, and w and a are what is left of weights in each other's company: a blink
+// leaves little of what else lids do. What two expressions add where they meet is linear in both.
 
 import type { Packet, Weights } from "./api";
+
+// By an expression others of which it says something.
+type Others = Readonly<Record<string, readonly string[]>>;
 
 interface Block {
   readonly start: number;
   readonly data: Float32Array;
+  // Eyes turn as they are told, whatever lids do.
+  readonly free: boolean;
+}
+
+interface Meeting {
+  readonly one: string;
+  readonly other: string;
+  readonly moves: Float32Array;
 }
 
 export class Morph {
@@ -13,6 +25,10 @@ export class Morph {
   #anchor: Float32Array;
   #anchorWeights: Weights = {};
   #columns = new Map<string, Block[]>();
+  #company: Others = {};
+  #blinks: Others = {};
+  #meetings: Meeting[] = [];
+  #meet: Int32Array = new Int32Array(0);
   // While a handle is dragged: displacements of vertices that no control stands for.
   #extra: Float32Array | null = null;
 
@@ -37,25 +53,38 @@ export class Morph {
     return this.counts.slice(0, part).reduce((sum, count) => sum + count, 0);
   }
 
-  setColumns({ arrays }: Packet, names: readonly string[]): void {
+  setColumns({ header, arrays }: Packet, names: readonly string[]): void {
     const skin = arrays.get("skin") as Float32Array;
     const curves = arrays.get("curves") as Float32Array;
     const shifts = arrays.get("shifts") as Float32Array;
     const last = this.counts.length - 1;
+    const parts = header.parts as string[];
+    this.#company = header.company as Others;
+    this.#blinks = header.blinks as Others;
     const block = (part: number) => 3 * this.counts[part]!;
     names.forEach((name, k) => {
       const blocks: Block[] = [
-        { start: 0, data: skin.subarray(k * block(0), (k + 1) * block(0)) },
-        { start: 3 * this.start(last), data: curves.subarray(k * block(last), (k + 1) * block(last)) },
+        { free: false, start: 0, data: skin.subarray(k * block(0), (k + 1) * block(0)) },
+        { free: false, start: 3 * this.start(last), data: curves.subarray(k * block(last), (k + 1) * block(last)) },
       ];
       for (let part = 1; part < last; part++) {
         const exact = arrays.get(`${part - 1}:${k}`) as Float32Array | undefined;
         const shift = shifts.subarray(3 * (k * (last - 1) + part - 1)).subarray(0, 3);
         const data = exact ?? (shift.some((x) => x !== 0) ? repeated(shift, this.counts[part]!) : null);
-        if (data) blocks.push({ start: 3 * this.start(part), data });
+        const free = parts[part - 1]!.endsWith("eyeball");
+        if (data) blocks.push({ start: 3 * this.start(part), data, free });
       }
       this.#columns.set(name, blocks);
     });
+  }
+
+  setMeetings({ arrays }: Packet, names: readonly string[]): void {
+    const [pairs, moves] = [arrays.get("pairs") as Int32Array, arrays.get("moves") as Float32Array];
+    this.#meet = arrays.get("vertices") as Int32Array;
+    const size = 3 * this.#meet.length;
+    this.#meetings = Array.from({ length: pairs.length / 2 }, (_, n) => ({
+      one: names[pairs[2 * n]!]!, other: names[pairs[2 * n + 1]!]!, moves: moves.subarray(n * size, (n + 1) * size),
+    }));
   }
 
   // Take the server's word for where everything is at these weights.
@@ -68,20 +97,45 @@ export class Morph {
     this.#extra = extra;
   }
 
-  // Whether anything differs from the last call.
   update(weights: Weights): void {
     const out = this.positions;
+    const before = this.#anchorWeights;
     out.set(this.#anchor);
-    const names = new Set([...Object.keys(weights), ...Object.keys(this.#anchorWeights)]);
-    for (const name of names) {
-      const change = (weights[name] ?? 0) - (this.#anchorWeights[name] ?? 0);
-      if (change === 0) continue;
-      for (const { start, data } of this.#columns.get(name) ?? []) {
+    const [now, then] = [this.#together(weights), this.#together(before)];
+    for (const name of new Set([...Object.keys(weights), ...Object.keys(before)])) {
+      const [told, left] = [weights, now].map((of, n) => (of[name] ?? 0) - ([before, then][n]![name] ?? 0)) as [number, number];
+      if (told === 0 && left === 0) continue;
+      for (const { start, data, free } of this.#columns.get(name) ?? []) {
+        const change = free ? told : left;
         for (let i = 0; i < data.length; i++) out[start + i]! += change * data[i]!;
       }
     }
+    this.#addMeetings(weights, before);
     const extra = this.#extra;
     if (extra) for (let i = 0; i < extra.length; i++) out[i]! += extra[i]!;
+  }
+
+  // What is left of weights in company, as pdeface.controls.together has it.
+  #together(weights: Weights): Weights {
+    const left: Record<string, number> = { ...weights };
+    for (const [name, others] of Object.entries(this.#company)) {
+      if (left[name]) left[name] = Math.min(left[name], ...others.map((other) => weights[other] ?? 0));
+    }
+    for (const [blink, others] of Object.entries(this.#blinks)) {
+      for (const other of others) if (left[other]) left[other] *= 1 - (weights[blink] ?? 0);
+    }
+    return left;
+  }
+
+  #addMeetings(weights: Weights, before: Weights): void {
+    const out = this.positions;
+    for (const { one, other, moves } of this.#meetings) {
+      const share = (weights[one] ?? 0) * (weights[other] ?? 0) - (before[one] ?? 0) * (before[other] ?? 0);
+      if (share === 0) continue;
+      this.#meet.forEach((vertex, n) => {
+        for (let k = 0; k < 3; k++) out[3 * vertex + k]! += share * moves[3 * n + k]!;
+      });
+    }
   }
 }
 

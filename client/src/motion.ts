@@ -1,6 +1,6 @@
 // Motion: a clip over the face, played, scrubbed, looped, faster or slower.
 
-import { api, type Packet, type Weights } from "./api";
+import { api, type Weights } from "./api";
 import { download, fileName } from "./dialogs";
 import { h } from "./dom";
 import { recorded } from "./film";
@@ -8,8 +8,6 @@ import { icon } from "./icons";
 import type { ClipInfo } from "./schema";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
-
-const MOST_FRAMES = 1200;
 
 export class Motion {
   clip: ClipInfo | null = null;
@@ -20,7 +18,6 @@ export class Motion {
   #before = 0;
   #asked = 0;
   #rest: Weights = {};
-  #lacks: Packet | null = null;
   #recording = false;
   // Told when a recording has been played to its end.
   #ended: (() => void) | null = null;
@@ -139,7 +136,6 @@ export class Motion {
     this.clip = null;
     this.studio.performing = false;
     this.studio.head?.pivot.rotation.set(0, 0, 0);
-    this.studio.head?.morph.setExtra(null);
     this.studio.redraw();
   }
 
@@ -185,29 +181,12 @@ export class Motion {
     this.play();
   }
 
-  // The face has changed: so has what it lacks while it performs.
+  // The face has changed, and performs on.
   #restart(): void {
     if (!this.clip) return;
     this.studio.performing = true;
     this.#rest = this.studio.doc.weights;
-    this.#lacks = null;
-    void this.#ask(this.clip);
     this.#pose();
-  }
-
-  async #ask(clip: ClipInfo): Promise<void> {
-    const rest = this.#rest;
-    if (clip.times.length > MOST_FRAMES) return;
-    const frames = clip.times.map((_, i) => this.#weights(i, i, 0));
-    try {
-      const found = await this.studio.lacks(this.studio.marks.heard(rest), frames);
-      if (clip === this.clip && rest === this.#rest) {
-        this.#lacks = found;
-        this.#pose();
-      }
-    } catch (error) {
-      toast(error);
-    }
   }
 
   #step(now: number): void {
@@ -237,7 +216,6 @@ export class Motion {
     const before = Math.max(0, after - 1);
     const span = times[after]! - times[before]! || 1;
     const share = Math.min(1, Math.max(0, (this.time - times[before]!) / span));
-    head.morph.setExtra(this.#extra(before, after, share));
     const mixed = (axis: number) =>
       (1 - share) * clip.head[before]![axis]! + share * clip.head[after]![axis]!;
     head.pivot.rotation.set(mixed(1), mixed(0), mixed(2), "YXZ");
@@ -251,25 +229,6 @@ export class Motion {
       mixed[name] = (1 - share) * weights[before]![n]! + share * weights[after]![n]!;
     });
     return this.studio.marks.heard(mixed);
-  }
-
-  #extra(before: number, after: number, share: number): Float32Array | null {
-    const { head } = this.studio;
-    if (!this.#lacks || !head) return null;
-    const frames = this.#lacks.arrays.get("frames") as Int32Array;
-    const vertices = this.#lacks.arrays.get("vertices") as Int32Array;
-    const lacks = this.#lacks.arrays.get("lacks") as Float32Array;
-    const extra = new Float32Array(head.morph.positions.length);
-    for (const [frame, weight] of [[before, 1 - share], [after, share]] as const) {
-      const row = frames.indexOf(frame);
-      if (row < 0 || weight === 0) continue;
-      for (let n = 0; n < vertices.length; n++) {
-        for (let k = 0; k < 3; k++) {
-          extra[3 * vertices[n]! + k]! += weight * lacks[3 * (row * vertices.length + n) + k]!;
-        }
-      }
-    }
-    return extra;
   }
 
   #show(): void {

@@ -1,7 +1,7 @@
 // The studio's state in one place: schema, timeline, the face on the stage, and what keeps the
 // server and the page of one mind.
 
-import { api, UnknownFace, type Packet, type Size, type Weights } from "./api";
+import { api, UnknownFace, type Size, type Weights } from "./api";
 import { Timeline, withWeights, type Doc } from "./document";
 import { settled } from "./dom";
 import { Head } from "./head";
@@ -107,11 +107,15 @@ export class Studio extends EventTarget {
       this.dispatchEvent(new Event("shown"));
       const columns = await api.columns(face, size);
       if (turn !== this.#loading) return;
-      head.morph.setColumns(columns, this.schema.controls.map((control) => control.name));
+      const names = this.schema.controls.map((control) => control.name);
+      head.morph.setColumns(columns, names);
       this.#follow();
       document.documentElement.dataset.ready = "true";
       performance.mark("ready");
       this.dispatchEvent(new Event("ready"));
+      // Until then lids that meet are a little off while they move.
+      head.morph.setMeetings(await api.meetings(face, size), names);
+      document.documentElement.dataset.meetings = "true";
     } catch (error) {
       toast(error);
     }
@@ -212,12 +216,6 @@ export class Studio extends EventTarget {
     this.head?.update(weights);
     this.viewer.display?.moved();
     this.viewer.draw();
-  }
-
-  // What the sum of columns lacks while a face performs: lids and lips that meet.
-  lacks(weights: Weights, frames: readonly Weights[]): Promise<Packet> {
-    const { face } = this.timeline.doc;
-    return this.#retold(() => api.residuals(face, this.size, weights, frames));
   }
 
   exported(request: ExportRequest, face: string): Promise<Blob> {

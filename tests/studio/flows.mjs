@@ -21,6 +21,7 @@ export async function flows(page, { folder, gone, expecting }) {
   await timed("views", () => views(page));
   await timed("slider", () => slider(page, expecting));
   await timed("contact", () => contact(page));
+  await timed("company", () => company(page, expecting));
   await timed("controls", () => controls(page));
   await timed("marks", () => marks(page));
   await timed("motion", () => motion(page));
@@ -199,6 +200,22 @@ async function contact(page) {
   });
   await settle(page);
   return page.evaluate(() => ({ weights: studio.doc.weights, skin: skin() }));
+}
+
+// Lids in company, moved by the page alone, as the webcam and a slider that is held move them.
+async function company(page, expecting) {
+  await page.waitForFunction(() => document.documentElement.dataset.meetings, null, { polling: 30 });
+  expecting(true);
+  await page.route("**/evaluate", (route) => route.fulfill({ status: 500, json: { error: "not now" } }));
+  const weights = { eyeBlinkLeft: 0.8, eyeSquintLeft: 1, eyeLookDownLeft: 0.7, mouthSmileLeft: 0.6, mouthClose: 0.5, jawOpen: 0.2 };
+  const found = await page.evaluate((performed) => {
+    studio.perform(performed);
+    const { head } = studio;
+    return { weights: performed, skin: skin(), eye: [...head.morph.positions.subarray(3 * head.morph.start(2), 3 * head.morph.start(3))] };
+  }, weights);
+  await page.unroute("**/evaluate");
+  expecting(false);
+  return found;
 }
 
 async function controls(page) {

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import pdeface
-from pdeface.controls import CONTROLS
-from pdeface.motion import clip
+from pdeface.controls import CONTROLS, together
 
 NAMES = list(CONTROLS)
 ROWS, COLUMNS = 28, 41
@@ -93,25 +92,22 @@ def test_a_handle_s_response_is_what_an_edit_does(visitor, at, unpack) -> None:
     assert np.abs(exact - at({})[:SKIN]).max() > 100 * ALIKE
 
 
-def test_lids_meet_while_a_clip_plays(visitor, columns, at, unpack) -> None:
-    """Where several expressions meet, columns and residuals together are the evaluation."""
-    track = clip("look", 20)
-    frames = [dict(zip(track.names, row.tolist(), strict=True)) for row in track.weights]
-    found = unpack(visitor.post("residuals", weights={"eyeWideLeft": 0.8}, frames=[
-        {"eyeWideLeft": 0.8, **frame} for frame in frames
-    ]))  # fmt: skip
-    lacking = found["frames"].tolist()
-    assert lacking
-    worst = lacking[int(np.abs(found["lacks"]).max(axis=(1, 2)).argmax())]
-    weights = {"eyeWideLeft": 0.8, **frames[worst]}
-    start = at({"eyeWideLeft": 0.8})[:SKIN]
-    change = {n: weights[n] - (0.8 if n == "eyeWideLeft" else 0.0) for n in weights}
-    alone = start + added(columns, change)
-    exact = at(weights)[:SKIN]
-    assert np.abs(alone - exact).max() > 1e-4
-    whole = np.zeros((found["vertices"].max(initial=SKIN) + 1, 3))
-    whole[found["vertices"]] = found["lacks"][lacking.index(worst)]
-    np.testing.assert_allclose(alone + whole[:SKIN], exact, atol=3e-5)
+def test_lids_meet_whatever_the_face_does(visitor, columns, at, unpack) -> None:
+    """Columns, with what is left of each in company, and meetings are the evaluation."""
+    found = unpack(visitor.get("meetings"))
+    names = list(CONTROLS)
+    draw = np.random.default_rng(3)
+    expressions = [name for name in names if CONTROLS[name].kind == "expression"]
+    for blink in (0.4, 0.8, 1.0):
+        weights = dict(zip(expressions, draw.beta(0.6, 1.4, len(expressions)), strict=True))
+        weights |= {"eyeBlinkLeft": blink, "eyeSquintLeft": 0.7, "eyeBlinkRight": 0.9 - blink / 2}
+        alone = at({})[:SKIN] + added(columns, together(weights))
+        exact = at(weights)[:SKIN]
+        whole = np.zeros((max(SKIN, found["vertices"].max() + 1), 3))
+        for (one, other), moves in zip(found["pairs"], found["moves"], strict=True):
+            whole[found["vertices"]] += weights[names[one]] * weights[names[other]] * moves
+        assert np.abs(alone - exact).max() > 2e-4
+        np.testing.assert_allclose(alone + whole[:SKIN], exact, atol=5e-5)
 
 
 @pytest.mark.parametrize(
@@ -128,7 +124,6 @@ def test_lids_meet_while_a_clip_plays(visitor, columns, at, unpack) -> None:
         ("edit", {"moves": [[0, 0, 5.0, 0, 0]]}, "by a metre at most"),
         ("edit", {"moves": [[0, 0, "x", 0, 0]]}, "three numbers"),
         ("edit", {"moves": {"a": 1}}, "moves are a list"),
-        ("residuals", {"weights": {}, "frames": []}, "frames are 1 to"),
     ],
 )
 def test_nonsense_is_refused_in_a_line(visitor, name: str, value, message: str) -> None:

@@ -17,7 +17,9 @@ from PIL import Image
 
 import pdeface
 from pdeface.controls import CONTROLS
+from pdeface.formats import part_on_mesh
 from pdeface.motion import read
+from pdeface.parts import FaceParts
 from pdeface.photo.camera import PhotoCamera
 from pdeface.studio import assets
 from pdeface.texture import portrait
@@ -163,6 +165,16 @@ def test_a_wide_eye_blinks_shut(report, person) -> None:
     assert contact["weights"]["eyeBlinkLeft"] == 1
     found = np.reshape(contact["skin"], (-1, 3))
     np.testing.assert_allclose(found, skin(person.with_weights(contact["weights"])), atol=ALIKE)
+
+
+def test_lids_and_lips_keep_company_while_the_page_moves_them_alone(report, person) -> None:
+    company = report["company"]
+    done = person.with_weights(company["weights"])
+    np.testing.assert_allclose(np.reshape(company["skin"], (-1, 3)), skin(done), atol=5e-5)
+    # The eye looks down as far as it is told, whatever the lid leaves of it.
+    eye = part_on_mesh(FaceParts.parts["left_eyeball"], 28)
+    expected = eye.positions(FaceParts(done).curves("left_eyeball"))
+    np.testing.assert_allclose(np.reshape(company["eye"], (-1, 3)), expected, atol=5e-5)
 
 
 def test_what_concerns_many_controls_at_once(report) -> None:

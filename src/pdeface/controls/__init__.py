@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 
 from pdeface.controls import measured, shape
 from pdeface.controls.arkit import ARKIT, EXPRESSIONS, SOURCES
-from pdeface.controls.contact import COMPANY, expressed
+from pdeface.controls.contact import BLINKS, COMPANY, expressed, together
 from pdeface.controls.control import Control
 from pdeface.controls.measured import IDENTITIES, Displacement, has_lids, slits
 from pdeface.errors import InputError
 
 __all__ = [
     "ARKIT",
+    "BLINKS",
     "COMPANY",
     "CONTROLS",
     "Control",
@@ -35,6 +36,7 @@ __all__ = [
     "posed",
     "random_weights",
     "slits",
+    "together",
 ]
 
 FloatArray = NDArray[np.float64]

@@ -23,7 +23,7 @@ from pdeface.controls.measured import STILL, Displacement
 from pdeface.controls.seams import seam
 from pdeface.template.layout import OPENING_ROWS
 
-__all__ = ["COMPANY", "expressed"]
+__all__ = ["BLINKS", "COMPANY", "expressed", "together"]
 
 FloatArray = NDArray[np.float64]
 
@@ -31,8 +31,14 @@ COMPANY: Mapping[str, Mapping[str, float]] = {"mouthClose": {"jawOpen": 1.0}}
 """Expressions that say something only together with others: a mouth is closed that is open."""
 
 _OF_LIDS = ("eyeWide", "eyeLookUp", "eyeLookDown", "eyeLookIn", "eyeLookOut")
+
+BLINKS: Mapping[str, tuple[str, ...]] = {
+    f"eyeBlink{side}": tuple(each + side for each in _OF_LIDS) for side in ("Right", "Left")
+}
+"""By each blink the expressions of whose opening and lowering of its lid it leaves the rest."""
+
 _OPENINGS = tuple(OPENING_ROWS)
-_BLINKS = {"eyeBlinkRight": "right_eye", "eyeBlinkLeft": "left_eye"}
+_EYES = {"eyeBlinkRight": "right_eye", "eyeBlinkLeft": "left_eye"}
 
 
 def expressed(
@@ -53,7 +59,7 @@ def expressed(
     if not weights:
         return Displacement(np.zeros(rest.shape), np.zeros(rest.shape))
     moved = measured.expressions(_sources(_lidded(weights)), size)
-    closed = {name: _closed(rest, weights, name, a, modes) for name in _BLINKS if name in weights}
+    closed = {name: _closed(rest, weights, name, a, modes) for name in _EYES if name in weights}
     added, margins = np.zeros_like(rest), STILL.copy()
     for name, weight in weights.items():
         by_curves, left = _kept_apart(name, size, a, modes)
@@ -62,12 +68,18 @@ def expressed(
     for name, (_, by_curves) in closed.items():
         added += weights[name] * by_curves
     for name, (wanted, by_curves) in closed.items():
-        weight, eye = weights[name], _BLINKS[name]
+        weight, eye = weights[name], _EYES[name]
         # A blink undoes what others' corrections do to its lids by the way.
         by_others = added - weight * by_curves
         done = seam(eye, size, a, modes).lines(np.zeros_like(rest), by_curves + by_others)
         margins[_OPENINGS.index(eye)] = weight * (wanted - done)
     return Displacement(moved.smooth, moved.parting + added, margins)
+
+
+def together(weights: Mapping[str, float]) -> dict[str, float]:
+    """What is left of weights in each other's company: they move the face as these would alone,
+    but for what lids lack that meet."""
+    return _lidded(_effective(weights))
 
 
 def _effective(weights: Mapping[str, float]) -> dict[str, float]:
@@ -81,8 +93,8 @@ def _effective(weights: Mapping[str, float]) -> dict[str, float]:
 def _lidded(weights: Mapping[str, float]) -> dict[str, float]:
     """The weights, of what opens and lowers a lid no more than a blink leaves of its opening."""
     left = dict(weights)
-    for blink, side in (("eyeBlinkRight", "Right"), ("eyeBlinkLeft", "Left")):
-        for name in (each + side for each in _OF_LIDS):
+    for blink, others in BLINKS.items():
+        for name in others:
             if name in left:
                 left[name] *= 1.0 - weights.get(blink, 0.0)
     return left
@@ -98,7 +110,7 @@ def _closed(
         which brings them nearly there.
     """
     size = rest.shape[0], rest.shape[1]
-    lids = seam(_BLINKS[blink], size, a, modes)
+    lids = seam(_EYES[blink], size, a, modes)
     moved = measured.expressions(_sources(_lidded({**weights, blink: 1.0})), size)
     shut = np.array(lids.lines(rest + moved.smooth, moved.parting))
     wanted = lids.meeting(shut[1]) - shut

@@ -42,8 +42,7 @@ class FaceWidget(anywidget.AnyWidget):  # type: ignore[misc]
         pages = folder()
         self._start = face
         self._geometry = Geometry(face, *mesh)
-        parts = list(self._geometry.parts)
-        columns = pack_arrays(self._geometry.columns(), counts=self._geometry.counts, parts=parts)
+        columns = pack_arrays(self._geometry.columns(), **self._geometry.facts())
         super().__init__(
             _esm=(pages / "widget.js").read_text(encoding="utf-8"),
             _css=(pages / "widget.css").read_text(encoding="utf-8"),

@@ -27,7 +27,6 @@ __all__ = ["face_routes"]
 
 _BYTES = "application/octet-stream"
 _MOST_STATES = 32
-_MOST_FRAMES = 1200
 _SECONDS_OF_CACHE = "private, max-age=86400, immutable"
 
 
@@ -60,8 +59,7 @@ class FaceRoutes:
         geometry = self._geometry(request, request.query_params)
 
         def made() -> list[bytes | memoryview]:
-            parts = list(geometry.parts)
-            return packed(geometry.columns(), counts=geometry.counts, parts=parts)
+            return packed(geometry.columns(), **geometry.facts())
 
         # In pieces: at the finest density they are 70 MB.
         chunks = await run_in_threadpool(made)
@@ -112,16 +110,11 @@ class FaceRoutes:
             raise InputError(f"a share of a blend is a number, got {share!r}; reload the page")
         return as_json(self._store.put(await run_in_threadpool(blended, one, other, share)))
 
-    async def residuals(self, request: Request) -> Response:
-        """What the page's sum of columns lacks in the frames of a motion."""
-        value = await json_body(request)
-        frames = value.get("frames")
-        if not isinstance(frames, list) or not 1 <= len(frames) <= _MOST_FRAMES:
-            raise InputError(f"frames are 1 to {_MOST_FRAMES} sets of weights; reload the page")
-        start, states = weights_of(value.get("weights")), [weights_of(frame) for frame in frames]
-        geometry = self._geometry(request, value)
-        found = await run_in_threadpool(geometry.residuals, start, states)
-        return Response(pack_arrays(found), media_type=_BYTES)
+    async def meetings(self, request: Request) -> Response:
+        """What the page's sum of columns lacks where expressions meet."""
+        geometry = self._geometry(request, request.query_params)
+        found = await run_in_threadpool(geometry.meetings)
+        return Response(pack_arrays(found), media_type=_BYTES, headers=_cached())
 
     async def save(self, request: Request) -> Response:
         """The face with these weights as a ``.pdeface`` file."""
@@ -175,7 +168,7 @@ def face_routes(store: FaceStore, first: FaceInfo) -> list[BaseRoute]:
         Route(f"{one}/columns", answered(routes.columns)),
         Route(f"{one}/evaluate", answered(routes.evaluate), methods=["POST"]),
         Route(f"{one}/response", answered(routes.response), methods=["POST"]),
-        Route(f"{one}/residuals", answered(routes.residuals), methods=["POST"]),
+        Route(f"{one}/meetings", answered(routes.meetings)),
         Route(f"{one}/blend", answered(routes.blend), methods=["POST"]),
         Route(f"{one}/edit", answered(routes.edit), methods=["POST"]),
         Route(f"{one}/save", answered(routes.save), methods=["POST"]),

@@ -10,12 +10,21 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.anatomy import Part
-from pdeface.controls import COMPANY, CONTROLS, Displacement, displacement, expressed
+from pdeface.controls import (
+    BLINKS,
+    COMPANY,
+    CONTROLS,
+    Displacement,
+    displacement,
+    expressed,
+    together,
+)
 from pdeface.curves import mirror_points
 from pdeface.errors import InputError
 from pdeface.face import Face
@@ -152,39 +161,47 @@ class Geometry:
         skin = self._sampler.positions(self._layers(closed, np.zeros_like(closed)))
         return skin.astype(np.float32), closed.reshape(-1, 3).astype(np.float32)
 
-    def residuals(
-        self, weights: Mapping[str, float], frames: Sequence[Mapping[str, float]]
-    ) -> dict[str, NDArray[np.generic]]:
-        """What the sum of the columns lacks in each frame: lids and lips that meet.
-
-        Args:
-            weights: where the page's sum begins: the face is exact there.
-            frames: weights that differ from these in expressions.
-
-        Returns:
-            ``frames`` (F,) that lack something, ``vertices`` (n,) where they do, and ``lacks``
-            (F, n, 3).
-        """
-        lacking = {}
-        for number, frame in enumerate(frames):
-            by = self._lacking(weights, frame)
-            if max(np.abs(each).max() for each in by) > _SEEN:
-                lacking[number] = self._everywhere(by)
-        values = np.array(list(lacking.values()), np.float32).reshape(-1, sum(self.counts[:-1]), 3)
-        vertices = np.flatnonzero((np.abs(values) > _SEEN).any(axis=(0, 2)))
+    def facts(self) -> dict[str, Any]:
+        """What the page has to know to add columns: vertices, parts, and what expressions leave
+        of each other."""
         return {
-            "frames": np.array(list(lacking), np.int32),
-            "vertices": vertices.astype(np.int32),
-            "lacks": values[:, vertices],
+            "counts": self.counts,
+            "parts": list(self.parts),
+            "company": {name: list(others) for name, others in COMPANY.items()},
+            "blinks": {name: list(others) for name, others in BLINKS.items()},
         }
 
-    def _lacking(self, start: Mapping[str, float], end: Mapping[str, float]) -> Displacement:
-        before, after = (self.face.with_weights(w).displacement for w in (start, end))
-        lacking = after.less(before)
-        for name in {**start, **end}:
-            change = end.get(name, 0.0) - start.get(name, 0.0)
-            if change:
-                lacking = lacking.less(Displacement(*(change * part for part in self._moved[name])))
+    def meetings(self) -> dict[str, NDArray[np.generic]]:
+        """What the sum of the columns lacks where two expressions meet: lids that blink.
+
+        What is lacking is linear in each of the two, and adds up.
+
+        Returns:
+            ``pairs`` (P, 2) of controls by number, ``vertices`` (n,) that they move, and ``moves``
+            (P, n, 3) with both at 1.
+        """
+        names = list(CONTROLS)
+        expressions = [n for n, c in CONTROLS.items() if c.kind == "expression"]
+        pairs, moves = [], []
+        for blink in BLINKS if self.face.has_lids else ():
+            for other in expressions:
+                by = self._lacking({blink: 1.0, other: 1.0}) if other != blink else None
+                if by is not None and max(np.abs(each).max() for each in by) > _SEEN:
+                    pairs.append((names.index(blink), names.index(other)))
+                    moves.append(self._everywhere(by).astype(np.float32))
+        values = np.array(moves, np.float32).reshape(len(pairs), sum(self.counts[:-1]), 3)
+        vertices = np.flatnonzero((np.abs(values) > _SEEN).any(axis=(0, 2)))
+        return {
+            "pairs": np.array(pairs, np.int32).reshape(-1, 2),
+            "vertices": vertices.astype(np.int32),
+            "moves": values[:, vertices],
+        }
+
+    def _lacking(self, weights: Mapping[str, float]) -> Displacement:
+        """What the weights do beyond the sum of what each of them does, with what is left of it."""
+        lacking = self.face.with_weights(weights).displacement
+        for name, weight in together(weights).items():
+            lacking = lacking.less(Displacement(*(weight * part for part in self._moved[name])))
         return lacking
 
     def _everywhere(self, by: Displacement) -> FloatArray:
