@@ -2,7 +2,7 @@
 
 import { dialog, download, fileName } from "./dialogs";
 import { h } from "./dom";
-import { clipFilm, turntable } from "./film";
+import { clipFilm, turntable, type Turn } from "./film";
 import type { Motion } from "./motion";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
@@ -25,7 +25,7 @@ const FORMATS: readonly Format[] = [
   { suffix: ".pdeface", label: "pdeface", hint: "The curves themselves: 4 kB and a texture" },
   { suffix: ".png", label: "Texture", hint: "The texture, PNG" },
   { suffix: "still", label: "Picture", hint: "What the stage shows, PNG without background" },
-  { suffix: "turn", label: "Turntable", hint: "From side to side and back, MP4", film: true },
+  { suffix: "turn", label: "Turntable", hint: "The face turning, MP4", film: true },
   { suffix: "clip", label: "Clip", hint: "The motion that is open, MP4", film: true },
 ];
 
@@ -47,17 +47,21 @@ export function exportDialog(studio: Studio, motion: Motion): void {
   const meshes = h("label", { class: "row" }, h("span", {}, "Mesh"), size("mesh", MESHES, 1));
   const stills = h("label", { class: "row" }, h("span", {}, "Pixels"), size("pixels", STILLS, 0));
   const films = h("label", { class: "row" }, h("span", {}, "Pixels"), size("film-pixels", FILMS, 1));
+  const turns = h("label", { class: "row" }, h("span", {}, "Turn"),
+    h("select", { id: "turn", "aria-label": "turn" },
+      h("option", { value: "sides" }, "From side to side and back"), h("option", { value: "round" }, "All the way round")));
   const targets = h("div", { class: "checks" },
     check("expressions", "Expressions as morph targets", true),
     check("visemes", "Visemes of speech as well", false));
   const go = h("button", { class: "primary", id: "export" }, "Export");
   const form = h("div", { class: "cards", role: "radiogroup", "aria-label": "Format" }, ...FORMATS.map((f, i) => pick("format", f, i)));
-  const box = dialog("Export", "exports", form, meshes, stills, films, targets, h("footer", {}, go));
+  const box = dialog("Export", "exports", form, meshes, stills, films, turns, targets, h("footer", {}, go));
   const chosen = () =>
     FORMATS.find(({ suffix }) => suffix === form.querySelector<HTMLInputElement>(":checked")!.value)!;
   const fitting = () => {
     const { mesh, targets: moving, suffix, film } = chosen();
     films.hidden = !film;
+    turns.hidden = suffix !== "turn";
     go.disabled = suffix === "clip" && !motion.clip;
     go.title = go.disabled ? "Open a motion first" : "";
     meshes.hidden = !mesh;
@@ -82,7 +86,7 @@ export function exportDialog(studio: Studio, motion: Motion): void {
           go.textContent = `Filming… ${Math.round(100 * share)} %`;
         };
         const { viewer } = studio;
-        const film = suffix === "turn" ? await turntable(viewer, pixels, tell) : await clipFilm(motion, viewer, pixels, tell);
+        const film = suffix === "turn" ? await turntable(viewer, pixels, of("turn").value as Turn, tell) : await clipFilm(motion, viewer, pixels, tell);
         download(film, fileName(`${name}-${suffix === "turn" ? "turntable" : motion.clip!.name}`, ".mp4"));
       } else if (suffix === "still") {
         const [width, height] = STILLS[Number(of("pixels").value)]!;

@@ -20,11 +20,16 @@ export const SECONDS = 6;
 
 type Told = (share: number) => void;
 
-// A film of the face turning from side to side and back: MP4, by the server's encoder.
-export function turntable(viewer: Viewer, size: readonly [number, number], tell: Told): Promise<Blob> {
+// How a face is turned: whichever, the last picture goes on into the first.
+export type Turn = "sides" | "round";
+
+// A film of the face turning from side to side and back, or all the way round: MP4, by the server's
+// encoder.
+export function turntable(viewer: Viewer, size: readonly [number, number], turn: Turn, tell: Told): Promise<Blob> {
   const from = viewer.azimuth;
   return filmed(viewer, size, SECONDS * RATE, (frame) => {
-    viewer.azimuth = SIDE * Math.sin((2 * Math.PI * frame) / (SECONDS * RATE));
+    const angle = (2 * Math.PI * frame) / (SECONDS * RATE);
+    viewer.azimuth = turn === "round" ? angle : SIDE * Math.sin(angle);
   }, tell).finally(() => (viewer.azimuth = from));
 }
 

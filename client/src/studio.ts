@@ -93,6 +93,7 @@ export class Studio extends EventTarget {
   // The face of the document on the stage: first as it is, then able to move.
   async load(): Promise<void> {
     const turn = ++this.#loading;
+    delete document.documentElement.dataset.meetings;
     const { face } = this.timeline.doc;
     const size = this.size;
     try {
@@ -114,7 +115,9 @@ export class Studio extends EventTarget {
       performance.mark("ready");
       this.dispatchEvent(new Event("ready"));
       // Until then lids that meet are a little off while they move.
-      head.morph.setMeetings(await api.meetings(face, size), names);
+      const meetings = await api.meetings(face, size);
+      if (turn !== this.#loading) return;
+      head.morph.setMeetings(meetings, names);
       document.documentElement.dataset.meetings = "true";
     } catch (error) {
       toast(error);

@@ -208,7 +208,9 @@ async function company(page, expecting) {
   expecting(true);
   await page.route("**/evaluate", (route) => route.fulfill({ status: 500, json: { error: "not now" } }));
   const weights = { eyeBlinkLeft: 0.8, eyeSquintLeft: 1, eyeLookDownLeft: 0.7, mouthSmileLeft: 0.6, mouthClose: 0.5, jawOpen: 0.2 };
-  const found = await page.evaluate((performed) => {
+  const found = await page.evaluate((expression) => {
+    const person = Object.entries(studio.doc.weights).filter(([name]) => /^(identity|nose)/.test(name));
+    const performed = { ...Object.fromEntries(person), ...expression };
     studio.perform(performed);
     const { head } = studio;
     return { weights: performed, skin: skin(), eye: [...head.morph.positions.subarray(3 * head.morph.start(2), 3 * head.morph.start(3))] };
@@ -663,6 +665,15 @@ async function shown(page, folder) {
   const [clip] = await Promise.all([page.waitForEvent("download"), page.locator("dialog #export").click()]);
   await clip.saveAs(join(folder, "clip.mp4"));
   found.clip = clip.suggestedFilename();
+  const azimuth = await page.evaluate(() => viewer.azimuth);
+  await page.getByRole("button", { name: "Export", exact: true }).click();
+  await page.locator('input[value="turn"]').check({ force: true });
+  await page.locator("#film-pixels").selectOption("0");
+  await page.locator("#turn").selectOption("round");
+  const [turn] = await Promise.all([page.waitForEvent("download"), page.locator("dialog #export").click()]);
+  await turn.saveAs(join(folder, "turn.mp4"));
+  found.turn = turn.suggestedFilename();
+  found.turnedBack = (await page.evaluate(() => viewer.azimuth)) - azimuth;
   found.size = await page.evaluate(() => [viewer.canvas.width, viewer.canvas.clientWidth]);
   await page.getByRole("button", { name: "Close motion" }).click();
   await page.keyboard.press("Control+z");

@@ -101,6 +101,7 @@ def test_lids_meet_whatever_the_face_does(visitor, columns, at, unpack) -> None:
     for blink in (0.4, 0.8, 1.0):
         weights = dict(zip(expressions, draw.beta(0.6, 1.4, len(expressions)), strict=True))
         weights |= {"eyeBlinkLeft": blink, "eyeSquintLeft": 0.7, "eyeBlinkRight": 0.9 - blink / 2}
+        weights |= {"identity03": draw.normal(), "identity07": draw.normal(), "noseWidth": 0.5}
         alone = at({})[:SKIN] + added(columns, together(weights))
         exact = at(weights)[:SKIN]
         whole = np.zeros((max(SKIN, found["vertices"].max() + 1), 3))

@@ -15,6 +15,8 @@ function hand(session) {
       for (let n = 1; n <= 6; n++) {
         await send("touchMove", from.map(([x, y], i) => [x + ((to[i][0] - x) * n) / 6, y + ((to[i][1] - y) * n) / 6]));
       }
+      // A move is told of with the next picture.
+      await new Promise((next) => setTimeout(next, 120));
       if (!held) await this.lift();
     },
     lift: () => send("touchEnd", []),

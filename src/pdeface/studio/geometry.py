@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from itertools import combinations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -172,23 +173,23 @@ class Geometry:
         }
 
     def meetings(self) -> dict[str, NDArray[np.generic]]:
-        """What the sum of the columns lacks where two expressions meet: lids that blink.
+        """What the sum of the columns lacks where two controls meet: a blink, with what else moves
+        the lids or makes another person of the face.
 
-        What is lacking is linear in each of the two, and adds up.
+        What is lacking is linear in each of the two, and adds up, to less than 0.1 mm.
 
         Returns:
             ``pairs`` (P, 2) of controls by number, ``vertices`` (n,) that they move, and ``moves``
             (P, n, 3) with both at 1.
         """
-        names = list(CONTROLS)
-        expressions = [n for n, c in CONTROLS.items() if c.kind == "expression"]
+        names, blinks = list(CONTROLS), list(BLINKS) if self.face.has_lids else []
+        meeting = [(b, name) for b in blinks for name in names if name not in blinks]
         pairs, moves = [], []
-        for blink in BLINKS if self.face.has_lids else ():
-            for other in expressions:
-                by = self._lacking({blink: 1.0, other: 1.0}) if other != blink else None
-                if by is not None and max(np.abs(each).max() for each in by) > _SEEN:
-                    pairs.append((names.index(blink), names.index(other)))
-                    moves.append(self._everywhere(by).astype(np.float32))
+        for one, other in [*meeting, *combinations(blinks, 2)]:
+            by = self._lacking({one: 1.0, other: 1.0})
+            if max(np.abs(each).max() for each in by) > _SEEN:
+                pairs.append((names.index(one), names.index(other)))
+                moves.append(self._everywhere(by).astype(np.float32))
         values = np.array(moves, np.float32).reshape(len(pairs), sum(self.counts[:-1]), 3)
         vertices = np.flatnonzero((np.abs(values) > _SEEN).any(axis=(0, 2)))
         return {
