@@ -17,7 +17,8 @@ interface Block {
 interface Meeting {
   readonly one: string;
   readonly other: string;
-  readonly moves: Float32Array;
+  // Of each of the moves, what the two make of it.
+  readonly shares: Float32Array;
 }
 
 export class Morph {
@@ -28,7 +29,9 @@ export class Morph {
   #company: Others = {};
   #blinks: Others = {};
   #meetings: Meeting[] = [];
+  // Vertices of the meetings, and where each move takes them.
   #meet: Int32Array = new Int32Array(0);
+  #moves: Float32Array[] = [];
   // While a handle is dragged: displacements of vertices that no control stands for.
   #extra: Float32Array | null = null;
 
@@ -79,12 +82,16 @@ export class Morph {
   }
 
   setMeetings({ arrays }: Packet, names: readonly string[]): void {
-    const [pairs, moves] = [arrays.get("pairs") as Int32Array, arrays.get("moves") as Float32Array];
+    const pairs = arrays.get("pairs") as Int32Array;
+    const cut = (name: string, count: number) => {
+      const all = arrays.get(name) as Float32Array;
+      const size = count && all.length / count;
+      return Array.from({ length: count }, (_, n) => all.subarray(n * size, (n + 1) * size));
+    };
+    const shares = cut("shares", pairs.length / 2);
     this.#meet = arrays.get("vertices") as Int32Array;
-    const size = 3 * this.#meet.length;
-    this.#meetings = Array.from({ length: pairs.length / 2 }, (_, n) => ({
-      one: names[pairs[2 * n]!]!, other: names[pairs[2 * n + 1]!]!, moves: moves.subarray(n * size, (n + 1) * size),
-    }));
+    this.#moves = cut("moves", shares[0]?.length ?? 0);
+    this.#meetings = shares.map((own, n) => ({ one: names[pairs[2 * n]!]!, other: names[pairs[2 * n + 1]!]!, shares: own }));
   }
 
   // Take the server's word for where everything is at these weights.
@@ -129,13 +136,18 @@ export class Morph {
 
   #addMeetings(weights: Weights, before: Weights): void {
     const out = this.positions;
-    for (const { one, other, moves } of this.#meetings) {
-      const share = (weights[one] ?? 0) * (weights[other] ?? 0) - (before[one] ?? 0) * (before[other] ?? 0);
-      if (share === 0) continue;
-      this.#meet.forEach((vertex, n) => {
-        for (let k = 0; k < 3; k++) out[3 * vertex + k]! += share * moves[3 * n + k]!;
-      });
+    const sums = new Float64Array(this.#moves.length);
+    for (const { one, other, shares } of this.#meetings) {
+      const both = (weights[one] ?? 0) * (weights[other] ?? 0) - (before[one] ?? 0) * (before[other] ?? 0);
+      if (both !== 0) shares.forEach((share, n) => (sums[n]! += both * share));
     }
+    this.#moves.forEach((move, m) => {
+      const share = sums[m]!;
+      if (share === 0) return;
+      this.#meet.forEach((vertex, n) => {
+        for (let k = 0; k < 3; k++) out[3 * vertex + k]! += share * move[3 * n + k]!;
+      });
+    });
   }
 }
 

@@ -105,7 +105,8 @@ def test_lids_meet_whatever_the_face_does(visitor, columns, at, unpack) -> None:
         alone = at({})[:SKIN] + added(columns, together(weights))
         exact = at(weights)[:SKIN]
         whole = np.zeros((max(SKIN, found["vertices"].max() + 1), 3))
-        for (one, other), moves in zip(found["pairs"], found["moves"], strict=True):
+        for (one, other), shares in zip(found["pairs"], found["shares"], strict=True):
+            moves = np.tensordot(shares, found["moves"], 1)
             whole[found["vertices"]] += (
                 weights.get(names[one], 0.0) * weights.get(names[other], 0.0) * moves
             )

@@ -16,6 +16,7 @@ from pdeface.errors import InputError
 from pdeface.face import Face
 from pdeface.studio.blending import blended
 from pdeface.studio.geometry import Geometry
+from pdeface.studio.meetings import meetings
 from pdeface.studio.moves import with_moves
 from pdeface.studio.packets import pack_arrays, packed
 from pdeface.studio.requests import answered, as_json, join_of, json_body, mesh_size, weights_of
@@ -113,7 +114,7 @@ class FaceRoutes:
     async def meetings(self, request: Request) -> Response:
         """What the page's sum of columns lacks where expressions meet."""
         geometry = self._geometry(request, request.query_params)
-        found = await run_in_threadpool(geometry.meetings)
+        found = await run_in_threadpool(meetings, geometry)
         return Response(pack_arrays(found), media_type=_BYTES, headers=_cached())
 
     async def save(self, request: Request) -> Response:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from itertools import combinations
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -44,9 +43,6 @@ MOST_VERTICES = 60_000
 """Of the skin, in the page; a file may have more."""
 
 _BATCH = 16
-
-_SEEN = 2e-5
-"""Metres that nobody misses."""
 
 
 class Geometry:
@@ -172,41 +168,15 @@ class Geometry:
             "blinks": {name: list(others) for name, others in BLINKS.items()},
         }
 
-    def meetings(self) -> dict[str, NDArray[np.generic]]:
-        """What the sum of the columns lacks where two controls meet: a blink, with what else moves
-        the lids or makes another person of the face.
-
-        What is lacking is linear in each of the two, and adds up, to less than 0.1 mm.
-
-        Returns:
-            ``pairs`` (P, 2) of controls by number, ``vertices`` (n,) that they move, and ``moves``
-            (P, n, 3) with both at 1.
-        """
-        names, blinks = list(CONTROLS), list(BLINKS) if self.face.has_lids else []
-        meeting = [(b, name) for b in blinks for name in names if name not in blinks]
-        pairs, moves = [], []
-        for one, other in [*meeting, *combinations(blinks, 2)]:
-            by = self._lacking({one: 1.0, other: 1.0})
-            if max(np.abs(each).max() for each in by) > _SEEN:
-                pairs.append((names.index(one), names.index(other)))
-                moves.append(self._everywhere(by).astype(np.float32))
-        values = np.array(moves, np.float32).reshape(len(pairs), sum(self.counts[:-1]), 3)
-        vertices = np.flatnonzero((np.abs(values) > _SEEN).any(axis=(0, 2)))
-        return {
-            "pairs": np.array(pairs, np.int32).reshape(-1, 2),
-            "vertices": vertices.astype(np.int32),
-            "moves": values[:, vertices],
-        }
-
-    def _lacking(self, weights: Mapping[str, float]) -> Displacement:
+    def lacking(self, weights: Mapping[str, float]) -> Displacement:
         """What the weights do beyond the sum of what each of them does, with what is left of it."""
         lacking = self.face.with_weights(weights).displacement
         for name, weight in together(weights).items():
             lacking = lacking.less(Displacement(*(weight * part for part in self._moved[name])))
         return lacking
 
-    def _everywhere(self, by: Displacement) -> FloatArray:
-        """(W, 3) displacement of skin and parts."""
+    def everywhere(self, by: Displacement) -> FloatArray:
+        """(W, 3) displacement of skin and parts by one of the curves, in which it is linear."""
         places = [self._sampler.positions(self._layers(by.smooth, by.parting), by.margins)]
         if self.parts:
             outline = self._anatomy.outline(by)
@@ -220,7 +190,9 @@ class Geometry:
 
     @cached_property
     def _moved(self) -> dict[str, Displacement]:
-        return {name: self._alone(name) for name in CONTROLS}
+        # In single precision, as the page has them: of a fine face they are 16 MB.
+        each = ((name, self._alone(name)) for name in CONTROLS)
+        return {n: Displacement(*(part.astype(np.float32) for part in by)) for n, by in each}
 
     def _layers(self, smooth: FloatArray, parting: FloatArray) -> FloatArray:
         return np.concatenate([smooth, parting], axis=-3) if self._parted else smooth + parting

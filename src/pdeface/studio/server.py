@@ -22,6 +22,7 @@ from pdeface.studio.faces import face_routes
 from pdeface.studio.films import Cutter, film_routes
 from pdeface.studio.guard import Guard, is_loopback
 from pdeface.studio.jobs import Jobs, job_routes
+from pdeface.studio.memory import give_back_what_is_freed
 from pdeface.studio.opening import open_routes
 from pdeface.studio.photo_routes import photo_routes
 from pdeface.studio.photos import PhotoDesk, Views
@@ -87,6 +88,7 @@ def serve(face: Face, *, host: str = "127.0.0.1", port: int | None = None, brows
         InputError: the port is taken, or the address is not this machine's.
         PDEFaceError: the page has not been built.
     """
+    give_back_what_is_freed()
     pages = folder()
     listener = _listener(host, port)
     number = int(listener.getsockname()[1])

@@ -19,7 +19,7 @@ __all__ = ["FaceStore", "Kept", "describe", "face_id"]
 
 Value = TypeVar("Value")
 
-_FACES, _GEOMETRIES = 64, 6
+_FACES, _GEOMETRIES = 64, 3
 
 
 class Kept(Generic[Value]):
