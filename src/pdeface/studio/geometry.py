@@ -192,7 +192,7 @@ class Geometry:
     def _moved(self) -> dict[str, Displacement]:
         # In single precision, as the page has them: of a fine face they are 16 MB.
         each = ((name, self._alone(name)) for name in CONTROLS)
-        return {n: Displacement(*(part.astype(np.float32) for part in by)) for n, by in each}
+        return {n: Displacement(*(part.astype(np.float32) for part in by)) for n, by in each}  # type: ignore[arg-type]
 
     def _layers(self, smooth: FloatArray, parting: FloatArray) -> FloatArray:
         return np.concatenate([smooth, parting], axis=-3) if self._parted else smooth + parting
