@@ -114,9 +114,18 @@ export class Studio extends EventTarget {
       document.documentElement.dataset.ready = "true";
       performance.mark("ready");
       this.dispatchEvent(new Event("ready"));
-      // Until then lids that meet are a little off while they move.
+      void this.#meet(head, face, size, names);
+    } catch (error) {
+      toast(error);
+    }
+  }
+
+  // Until this has come, which takes the server seconds, lids that meet are a little off while they
+  // move.
+  async #meet(head: Head, face: string, size: Size, names: readonly string[]): Promise<void> {
+    try {
       const meetings = await api.meetings(face, size);
-      if (turn !== this.#loading) return;
+      if (head !== this.head) return;
       head.morph.setMeetings(meetings, names);
       document.documentElement.dataset.meetings = "true";
     } catch (error) {
