@@ -5,6 +5,7 @@ import { h } from "./dom";
 import { Fitting } from "./fitting";
 import type { Jobs } from "./jobs";
 import type { ClipInfo, JobInfo, PhotoInfo, ScanInfo } from "./schema";
+import { keepJob, unfinishedJob, type Begun } from "./storage";
 import type { Studio } from "./studio";
 import { toast } from "./toast";
 
@@ -77,13 +78,25 @@ export class Files {
     }
   }
 
+  // What was begun before a reload is waited for again.
+  resume(): void {
+    const begun = unfinishedJob();
+    if (begun) this.jobs.again(begun.id, ...this.#waiting(begun));
+  }
+
   #watch(job: JobInfo, name: string, label: string): void {
+    keepJob({ id: job.id, name, label });
+    this.jobs.watch(job, ...this.#waiting({ id: job.id, name, label }));
+  }
+
+  #waiting({ name, label }: Begun): [(job: JobInfo) => void, (packet: Packet) => void] {
     let fitting: Fitting | null = null;
     const seen = (packet: Packet) => {
       fitting ??= this.fitting = new Fitting(this.studio.viewer);
       fitting.show(packet);
     };
-    this.jobs.watch(job, ({ state, message, share, face, photos, scan }) => {
+    const told = ({ state, message, share, face, photos, scan }: JobInfo) => {
+      if (state !== "running") keepJob(null);
       // Over a dialogue that is open, if one is.
       (document.querySelector<HTMLElement>("dialog[open]") ?? this.stage).append(this.#progress);
       this.#progress.hidden = state !== "running";
@@ -101,7 +114,8 @@ export class Files {
       void this.studio.adopt({ ...face, name }, label).then(() => this.studio.arrival(face.id)).then(there);
       for (const note of photos.flatMap(({ notes }) => notes)) toast(note);
       if (photos.length) this.onPhotos(photos);
-    }, seen);
+    };
+    return [told, seen];
   }
 }
 

@@ -116,6 +116,7 @@ export class Handles {
     if (display) {
       display.overlay = this.on;
       display.apply();
+      this.studio.dispatchEvent(new Event("shown-otherwise"));
     }
     this.studio.viewer.draw();
   }

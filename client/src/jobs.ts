@@ -26,6 +26,14 @@ export class Jobs {
     this.#tell(this.#latest.get(job.id) ?? job);
   }
 
+  // A job that the page before a reload has begun: if the server knows of it still.
+  again(id: string, watcher: Watcher, seen: Onlooker): void {
+    this.#watchers.set(id, watcher);
+    this.#onlookers.set(id, seen);
+    const latest = this.#latest.get(id);
+    if (latest) this.#tell(latest);
+  }
+
   #connect(again: boolean): void {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const socket = new WebSocket(`${scheme}://${location.host}/api/jobs`);

@@ -16,8 +16,8 @@ function pressed(event: KeyboardEvent): string {
 // Keys that a field, a list or a slider needs for itself.
 function isTaken(event: KeyboardEvent): boolean {
   const target = event.target as HTMLElement;
-  if (event.ctrlKey || event.metaKey) return target.matches("input:not([type=range])") && /^[zyacvx]$/i.test(event.key);
   if (target.closest("dialog")) return true;
+  if (event.ctrlKey || event.metaKey) return target.matches("input:not([type=range])") && /^[zyacvx]$/i.test(event.key);
   if (target.matches("input[type=range]")) return event.key.startsWith("Arrow") || /^[-+]$/.test(event.key);
   if (target.matches("button, summary")) return event.key === " " || event.key === "Enter";
   return target.matches("input, select, textarea");
@@ -31,6 +31,10 @@ export function keysOf(keys: string): string[] {
 export function listen(shortcuts: readonly Shortcut[]): void {
   const table = new Map<string, Shortcut>();
   for (const shortcut of shortcuts) for (const key of keysOf(shortcut.keys)) table.set(key, shortcut);
+  // A button that was clicked does not keep the keys: the space bar is to play, not to click again.
+  document.addEventListener("click", (event) => {
+    if (event.detail > 0) (event.target as Element).closest<HTMLElement>("button")?.blur();
+  }, { capture: true });
   document.addEventListener("keydown", (event) => {
     const shortcut = table.get(pressed(event));
     if (!shortcut || isTaken(event)) return;

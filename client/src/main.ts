@@ -151,6 +151,7 @@ async function start(): Promise<void> {
   Object.assign(window, { studio, viewer, motion, handles, files, blend, overlay, scan, webcam, api });
   await studio.load();
   welcome();
+  files.resume();
   await studio.keepCurrent();
   keep();
 }

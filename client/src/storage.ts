@@ -40,6 +40,27 @@ export function lastSession(): Session | null {
   return sessions()[0]?.[1] ?? null;
 }
 
+// Work of the server that this window waits for, by the number of its job.
+export interface Begun {
+  readonly id: string;
+  readonly name: string;
+  readonly label: string;
+}
+
+export function keepJob(begun: Begun | null): void {
+  if (begun) sessionStorage.setItem(`${PREFIX}job`, JSON.stringify(begun));
+  else sessionStorage.removeItem(`${PREFIX}job`);
+}
+
+export function unfinishedJob(): Begun | null {
+  try {
+    const value = JSON.parse(sessionStorage.getItem(`${PREFIX}job`) ?? "null") as Begun | null;
+    return value && [value.id, value.name, value.label].every((each) => typeof each === "string") ? value : null;
+  } catch {
+    return null;
+  }
+}
+
 function sessions(): [string, Session][] {
   return Object.keys(localStorage)
     .filter((key) => key.startsWith(`${PREFIX}session.`))

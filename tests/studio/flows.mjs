@@ -39,6 +39,7 @@ export async function flows(page, { folder, gone, expecting }) {
   expecting(false);
   await timed("lost", () => lost(page));
   await timed("recovered", () => recovered(page));
+  if (process.env.PDEFACE_MODEL) await timed("waited", () => waited(page, folder));
   return report;
 }
 
@@ -315,6 +316,9 @@ async function motion(page) {
   const found = { name: await page.evaluate(() => motion.clip.name) };
   await page.getByRole("button", { name: "Pause" }).click();
   found.playing = await page.evaluate(() => motion.playing);
+  await page.keyboard.press(" ");
+  found.again = await page.evaluate(() => [motion.open, motion.playing]);
+  await page.keyboard.press(" ");
   found.shut = await page.evaluate(() => {
     motion.seek(0.4);
     return changed(before, pixels());
@@ -701,4 +705,17 @@ async function recovered(page) {
   const again = await page.locator("dialog.tour").count();
   const after = await page.evaluate(() => [studio.timeline.steps.length, studio.doc]);
   return { before, after, again };
+}
+
+// A reload while the server works on a scan: the page waits for it again.
+async function waited(page, folder) {
+  const bytes = (await readFile(join(folder, "scan.ply"))).toString("base64");
+  await page.evaluate(async (text) => {
+    const data = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    await files.take(new File([data], "again.ply"));
+  }, bytes);
+  await page.reload();
+  await ready(page);
+  await page.waitForFunction(() => scan.info && studio.shown === studio.doc.face, null, { polling: 50 });
+  return { name: await page.evaluate(() => studio.doc.name), label: await page.evaluate(() => studio.timeline.steps.at(-1).label) };
 }

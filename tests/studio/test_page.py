@@ -206,6 +206,7 @@ def test_a_clip_plays_and_leaves_no_trace(report) -> None:
     motion = report["motion"]
     assert motion["name"] == "blink"
     assert motion["playing"] is False
+    assert motion["again"] == [True, True], "the space bar plays, whatever was clicked before"
     assert motion["shut"] > SEEN
     assert motion["jaw"] == 0
     assert motion["turned"]
@@ -416,6 +417,11 @@ def test_a_lost_graphics_card_is_told_of_and_comes_back(report) -> None:
 def test_a_reload_loses_nothing(report) -> None:
     assert report["recovered"]["after"] == report["recovered"]["before"]
     assert report["recovered"]["before"][0] > 5
+
+
+@pytest.mark.usefixtures("model")
+def test_what_is_worked_on_is_waited_for_over_a_reload(report) -> None:
+    assert report["waited"] == {"name": "again", "label": "Open again.ply"}
 
 
 def test_fingers_turn_zoom_and_move_the_stage(report) -> None:

@@ -23,6 +23,7 @@ from pdeface.studio.requests import answered, as_json, body, json_body
 from pdeface.studio.scans import ScanDesk, scan_suffix
 from pdeface.studio.schema import ClipInfo, Opened
 from pdeface.studio.store import FaceStore
+from pdeface.studio.temporary import as_file
 
 __all__ = ["open_routes", "opened_face"]
 
@@ -56,9 +57,7 @@ def opened_face(data: bytes) -> Face:
     Raises:
         FileFormatError: the file is damaged or something else.
     """
-    with TemporaryDirectory(prefix="pdeface-") as folder:
-        path = Path(folder) / "face.pdeface"
-        path.write_bytes(data)
+    with as_file(data, ".pdeface") as path:
         return load(path)
 
 
@@ -68,10 +67,7 @@ def opened_motion(data: bytes) -> ClipInfo:
     Raises:
         FileFormatError: the file is damaged or something else.
     """
-    with TemporaryDirectory(prefix="pdeface-") as folder:
-        suffix = ".json" if data.lstrip()[:1] == b"{" else ".csv"
-        path = Path(folder) / f"motion{suffix}"
-        path.write_bytes(data)
+    with as_file(data, ".json" if data.lstrip()[:1] == b"{" else ".csv") as path:
         return clip_info("recording", read(path, clamp=True))
 
 

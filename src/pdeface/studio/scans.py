@@ -6,7 +6,6 @@ import re
 import secrets
 import struct
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,6 +16,7 @@ from pdeface.studio.apart import Telling, apart
 from pdeface.studio.jobs import Result, Tell
 from pdeface.studio.schema import ScanInfo
 from pdeface.studio.store import FaceStore, Kept
+from pdeface.studio.temporary import as_file
 
 if TYPE_CHECKING:
     from pdeface.scan import Scan, Spread, Target
@@ -160,9 +160,7 @@ def _fitted(
     """A scan's face, the scan in its frame, how far they are apart, and the scan's coverage."""
     from pdeface.scan import Scan, fit_scan, measure, read_scan, texture_of
 
-    with TemporaryDirectory(prefix="pdeface-") as folder:
-        path = Path(folder) / f"scan{suffix}"
-        path.write_bytes(data)
+    with as_file(data, suffix) as path:
         head = read_scan(path)
     given = Path(model) if model else None
 
