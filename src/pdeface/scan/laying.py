@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from pdeface.scan.alignment import Landmarks
 from pdeface.scan.fields import enlarged, normals, smoothed
 from pdeface.scan.nearest import Target
+from pdeface.scan.noise import quiet_width
 from pdeface.scan.nostrils import fitted_nostrils
 from pdeface.scan.surface import Scan
 from pdeface.template import column_v, row_u
@@ -104,13 +105,16 @@ def lay(
     target = Target(scan, _BREADTH)
     bend = _ROUND if rounded else 0.0
     points, known = start.copy(), _known(*start.shape[:2])
+    finest = quiet_width(scan) / _ROW
     for number, stage in enumerate(_STAGES):
+        stage = stage._replace(width=max(stage.width, finest))
         if number == _NOSTRILS:
             points = fitted_nostrils(points, target)
         for _ in range(stage.rounds):
             points = points + _move(points, stage, target, landmarks, known, _SLIDE, bend)
             on_round(points)
-    detailed = not scan.is_cloud or _LAST.width * _ROW > _DETAIL * scan.spacing
+    fine = not scan.is_cloud or _LAST.width * _ROW > _DETAIL * scan.spacing
+    detailed = fine and _LAST.width > finest
     for _ in range(_LAST.rounds if detailed else 0):
         points = points + _move(points, _LAST, target, landmarks, known, 0.0, bend)
         on_round(points)
