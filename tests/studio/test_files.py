@@ -91,6 +91,7 @@ def test_damaged_files_are_refused_in_a_line(sent) -> None:
         answer = sent(data)
         assert answer.status_code == 422, answer.text
         assert "\n" not in answer.json()["error"]
+        assert "pdeface-" not in answer.json()["error"]
 
 
 def test_too_large_a_file_is_refused_before_it_is_read(sent, monkeypatch) -> None:
