@@ -150,7 +150,7 @@ export const SCENES = [
     name: "scan-fitting", enter: both(open("scan"), ({ page }) => page.waitForFunction(() => files.fitting?.rounds > 0, null, { polling: 20 })),
   },
   { name: "scan-fitting-later", enter: ({ page }) => page.waitForFunction(() => files.fitting.rounds > 11, null, { polling: 20 }),
-    always: true, leave: both(({ page }) => page.waitForFunction(() => scan.info, null, { polling: 100 }), label("Open")),
+    leave: both(({ page }) => page.waitForFunction(() => scan.info, null, { polling: 100 }), label("Open")),
   },
   { name: "scan", enter: ({ page }) => page.waitForTimeout(2500) },
   { name: "scan-veil", enter: both(button("Show scan"), ({ page }) => page.waitForTimeout(1200)), leave: both(button("Show scan"), button("Without the scan")) },
