@@ -539,7 +539,7 @@ async function scanned(page, folder) {
     look();
   }, bytes);
   const measured = () => page.waitForFunction(() => exact() && viewer.display.distances?.length === studio.head.skin.count, null, { polling: 50 });
-  await page.waitForFunction(() => scan.info, null, { polling: 50 });
+  await page.waitForFunction(() => scan.info, null, { polling: 50, timeout: 240_000 });
   await measured();
   await page.waitForTimeout(500);
   const found = { steps: await page.evaluate(() => told.length), name: await page.evaluate(() => studio.doc.name) };
@@ -716,6 +716,6 @@ async function waited(page, folder) {
   }, bytes);
   await page.reload();
   await ready(page);
-  await page.waitForFunction(() => scan.info && studio.shown === studio.doc.face, null, { polling: 50 });
+  await page.waitForFunction(() => scan.info && studio.shown === studio.doc.face, null, { polling: 50, timeout: 240_000 });
   return { name: await page.evaluate(() => studio.doc.name), label: await page.evaluate(() => studio.timeline.steps.at(-1).label) };
 }

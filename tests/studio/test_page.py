@@ -81,7 +81,7 @@ def report(folder: Path, person: pdeface.Face) -> dict[str, Any]:
     model = Path(os.environ.get("PDEFACE_SHARED") or HERE.parents[2] / "shared") / MODEL
     told = {"PDEFACE_MODEL": str(model)} if model.is_file() else {}
     answer = subprocess.run(
-        command, capture_output=True, text=True, check=False, timeout=600,
+        command, capture_output=True, text=True, check=False, timeout=1200,
         env={**os.environ, **told},
     )  # fmt: skip
     assert answer.returncode == 0, answer.stderr
