@@ -113,7 +113,9 @@ def lay(
         for _ in range(stage.rounds):
             points = points + _move(points, stage, target, landmarks, known, _SLIDE, bend)
             on_round(points)
-    fine = not scan.is_cloud or _LAST.width * _ROW > _DETAIL * scan.spacing
+    # Finer than its triangles the curved surface that they stand for is as lumpy as they are.
+    followed = not scan.is_cloud and not rounded
+    fine = followed or _LAST.width * _ROW > _DETAIL * scan.spacing
     detailed = fine and _LAST.width > finest
     for _ in range(_LAST.rounds if detailed else 0):
         points = points + _move(points, _LAST, target, landmarks, known, 0.0, bend)
