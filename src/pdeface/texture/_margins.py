@@ -53,7 +53,7 @@ def clean_margins(texture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """
     height, width = texture.shape[:2]
     u, v = np.arange(0.5, height) / height, np.arange(0.5, width) * (np.pi / width)
-    result = texture.copy()
+    result = texture.copy()  # windows of openings do not overlap
 
     def clean(opening: Opening) -> None:
         rows, columns = _window(opening, u, v)

@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
 
 from pdeface.template import feature_points
 from pdeface.template.layout import PAPER_ROWS, ROWS
@@ -56,10 +57,9 @@ def random_skin(rng: np.random.Generator) -> Skin:
     dark = np.clip(tone * rng.uniform(0.12, 0.75) + rng.normal(0.0, 0.02, 3), 0.02, 0.9)
     if rng.random() < _PORTRAIT:
         image = tone * _portrait(rng.random() < 0.5) ** rng.uniform(0.6, 1.2)
-        image = _warped(rng, image)
     else:
-        image = _warped(rng, _painted(rng, tone, dark))
-    image = _weathered(rng, image, dark)
+        image = _painted(rng, tone, dark)
+    image = _weathered(rng, _warped(rng, image), dark)
     edge = np.minimum.reduce([_U, 1.0 - _U, _V / np.pi, 1.0 - _V / np.pi])
     inside = np.clip(edge / 0.07, 0.0, 1.0)[..., None]
     pixels = np.clip(inside * image + (1.0 - inside) * tone, 0.0, 1.0)
@@ -98,12 +98,7 @@ def _warped(rng: np.random.Generator, image: FloatArray) -> FloatArray:
         waves = rng.uniform(-9.0, 9.0, (4, 2))
         moved = sum(rng.normal(0.0, _WARP) * np.sin(a * _U + b * _V) for a, b in waves)
         places.append(np.clip(_SIZE * (axis / size + moved) - 0.5, 0.0, _SIZE - 1.001))
-    row, column = (place.astype(int) for place in places)
-    y, x = places[0] - row, places[1] - column
-    upper = image[row, column] + x[..., None] * (image[row, column + 1] - image[row, column])
-    row += 1
-    lower = image[row, column] + x[..., None] * (image[row, column + 1] - image[row, column])
-    return np.asarray(upper + y[..., None] * (lower - upper))
+    return _read(image, *places)
 
 
 def _weathered(rng: np.random.Generator, image: FloatArray, dark: FloatArray) -> FloatArray:
@@ -112,9 +107,8 @@ def _weathered(rng: np.random.Generator, image: FloatArray, dark: FloatArray) ->
         coarse = rng.normal(0.0, rng.uniform(0.0, 0.035), (cells, cells))
         image = image * (1.0 + _enlarged(coarse))[..., None]
     for mask, most in ((_under_eyes(rng), 0.35), (_folds(rng), 0.35), (_cheeks(rng), 0.25)):
-        color = (
-            image * (1.0, rng.uniform(0.6, 0.95), rng.uniform(0.6, 0.95)) * rng.uniform(0.6, 1.0)
-        )
+        redder = 1.0, rng.uniform(0.6, 0.95), rng.uniform(0.6, 0.95)
+        color = image * redder * rng.uniform(0.6, 1.0)
         image = image + (rng.uniform(0.0, most) * mask)[..., None] * (color - image)
     if rng.random() < _BEARDED:
         grain = 0.6 + 0.4 * rng.random(_U.shape)
@@ -124,11 +118,15 @@ def _weathered(rng: np.random.Generator, image: FloatArray, dark: FloatArray) ->
 
 
 def _enlarged(coarse: FloatArray) -> FloatArray:
-    """(H, W) bilinear."""
+    """(H, W) the cells from edge to edge of a skin."""
     at = np.linspace(0.0, len(coarse) - 1.001, _SIZE)
-    first, share = at.astype(int), at % 1.0
-    rows = coarse[first] + share[:, None] * (coarse[first + 1] - coarse[first])
-    return np.asarray(rows[:, first] + share * (rows[:, first + 1] - rows[:, first]))
+    return _read(coarse[..., None], *np.meshgrid(at, at, indexing="ij"))[..., 0]
+
+
+def _read(image: FloatArray, row: FloatArray, column: FloatArray) -> FloatArray:
+    """(H, W, k) an image between its pixels, bilinear."""
+    layers = np.moveaxis(image, -1, 0)
+    return np.stack([map_coordinates(each, [row, column], order=1) for each in layers], axis=-1)
 
 
 def _under_eyes(rng: np.random.Generator) -> FloatArray:
