@@ -155,6 +155,30 @@ def test_the_residual_folds_nothing(collins) -> None:
     assert np.delete(upright, lips, axis=0).min() > 0.3
 
 
+def test_the_residual_leaves_the_size_of_the_features(collins) -> None:
+    """Of eyes, nose and mouth together; where each of them is, it changes."""
+    shape = fit_shape(collins)
+    bare = pdeface.neutral().with_weights(shape.identity)
+    one, other = (landmarks(face)[[33, 133, 362, 263, 2, 61, 291]] for face in (bare, shape.face))
+    assert np.linalg.norm(other - one, axis=1).max() > 5e-4
+    middle = one - one.mean(axis=0)
+    grown = np.sum(middle * (other - one)) / np.sum(middle**2)
+    assert abs(grown) < 2e-3
+
+
+def test_a_residual_that_folds_is_less_only_where_it_does(collins) -> None:
+    marks = collins.landmarks.copy()
+    marks[291, :2] += (-0.55 * collins.eye_distance, 0.0)  # one corner of the mouth, inwards
+    marks[[409, 375, 287, 308], :2] += (-0.4 * collins.eye_distance, 0.0)
+    plain, pulled = fit_shape(collins), fit_shape(replace(collins, landmarks=marks))
+    bare = pdeface.neutral().with_weights(pulled.identity)
+    one, other = (f.mesh(109, 163, openings="none").normals for f in (bare, pulled.face))
+    upright = np.einsum("ni,ni->n", one, other).reshape(109, 163)
+    assert np.delete(upright, slice(68, 81), axis=0).min() > 0.3
+    size = np.linalg.norm(pulled.residual, axis=-1), np.linalg.norm(plain.residual, axis=-1)
+    assert size[0][:8].max() > 0.5 * size[1][:8].max()
+
+
 def test_photos_that_agree_leave_less_at_the_mean(collins) -> None:
     once = fit_shape(collins)
     twice = fit_shapes([collins, collins])
