@@ -13,9 +13,9 @@ __all__ = ["ROUNDS", "sample_rounds"]
 
 ROUNDS = 12
 _PICTURES, _OFTEN, _OF_THE_SAME = 400, 3, 450
-_PAIRED = 2
+_PAIRED, _MIXED = 2, 12
 """In the first rounds each person is seen three times, to learn what photos agree on; after them
-once, because people teach more than pictures."""
+once, because people teach more than pictures. After the second number people are bent."""
 
 
 def sample_rounds(heads: Path, model: Path, rounds: int, cache: Path | None) -> Numbers:
@@ -41,7 +41,7 @@ def _round(heads: Path, model: Path, number: int, cache: Path | None) -> Numbers
             return {name: file[name] for name in file.files}
     often = number <= _PAIRED
     people, views = (_OF_THE_SAME // _OFTEN, _OFTEN) if often else (_PICTURES, 1)
-    found = sample(heads, model, people, views, seed=number)
+    found = sample(heads, model, people, views, seed=number, bent=number > _MIXED)
     if path is not None:
         with atomic_path(path) as temporary, open(temporary, "wb") as file:
             np.savez(file, **found)  # type: ignore[arg-type]

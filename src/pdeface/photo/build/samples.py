@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pdeface.photo import _views
-from pdeface.photo.build.heads import HeadSpace
+from pdeface.photo.build.heads import Head, HeadSpace
 from pdeface.photo.build.scenes import Scene, photograph, random_scene
-from pdeface.photo.build.skins import random_skin
+from pdeface.photo.build.skins import Skin, random_skin
 from pdeface.photo.build.spoiling import spoiled
+from pdeface.photo.build.straying import MIXTURE, Nearest, bend
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.landmarker import faces_both_ways, faces_in, landmarker
 from pdeface.photo.network import Network, square
@@ -29,7 +32,9 @@ _SMILE = "mouthSmile", "cheekSquint"
 _SPOILS = 7  # besides a round's seed
 
 
-def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> Numbers:
+def sample(
+    folder: Path, model: Path, count: int, views: int, seed: int = 0, bent: bool = False
+) -> Numbers:
     """Landmarks of random heads.
 
     Args:
@@ -38,6 +43,7 @@ def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> 
         count: how many people.
         views: pictures of each, each of another expression, from another side and in other light.
         seed: other people for another.
+        bent: whether they are no mixtures (:mod:`pdeface.photo.build.straying`).
 
     Returns:
         Arrays with a row a picture: ``person``, ``identity`` (100 weights), ``expression`` (53),
@@ -47,7 +53,8 @@ def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> 
     rows: dict[str, list[Any]] = {}
     network = Network(model)
     with landmarker(model) as detect:
-        pictures = _pictures(HeadSpace(folder), detect, count, views, seed)
+        heads = _people(HeadSpace(folder), count, seed, bent)
+        pictures = _pictures(heads, detect, views)
         for row, (number, picture, face, truth) in enumerate(pictures):
             rng = np.random.default_rng([seed, row, _SPOILS])
             found = {
@@ -63,22 +70,53 @@ def sample(folder: Path, model: Path, count: int, views: int, seed: int = 0) -> 
     return {name: np.array(values) for name, values in rows.items()}
 
 
-def _pictures(
-    space: HeadSpace, detect: Any, count: int, views: int, seed: int
-) -> Iterator[tuple[int, NDArray[np.uint8], PhotoFace, Numbers]]:
-    canvas = Canvas()
+class _Person(NamedTuple):
+    """Somebody to photograph: by expression, and the identity that is to be found."""
+
+    number: int
+    identity: FloatArray
+    skin: Skin
+    head: Callable[[FloatArray], Head]
+    expressions: list[str]
+    rng: np.random.Generator
+
+
+def _people(space: HeadSpace, count: int, seed: int, bent: bool) -> Iterator[_Person]:
+    nearest = Nearest(space) if bent else None
     for number in range(count):
         rng = np.random.default_rng([seed, number])
         identity = rng.normal(size=space.modes)
-        skin = random_skin(rng)
+        skin, head = random_skin(rng), partial(space.head, identity)
+        if nearest is not None:
+            identity = MIXTURE * identity
+            moved = bend(rng, space.head(identity).vertices)
+            head = partial(_bent, space, identity, moved)
+            more = nearest(moved)
+            identity = np.concatenate([identity[: len(more)] + more, identity[len(more) :]])
+        yield _Person(number, identity, skin, head, space.expressions, rng)
+
+
+def _bent(
+    space: HeadSpace, identity: FloatArray, moved: FloatArray, expression: FloatArray
+) -> Head:
+    head = space.head(identity, expression)
+    return replace(head, vertices=head.vertices + moved)
+
+
+def _pictures(
+    people: Iterable[_Person], detect: Any, views: int
+) -> Iterator[tuple[int, NDArray[np.uint8], PhotoFace, Numbers]]:
+    canvas = Canvas()
+    for person in people:
         for _ in range(views):
-            expression = random_expression(rng, space.expressions)
-            scene = random_scene(rng)
-            picture = photograph(space.head(identity, expression), skin, scene, canvas)
+            expression = random_expression(person.rng, person.expressions)
+            scene = random_scene(person.rng)
+            picture = photograph(person.head(expression), person.skin, scene, canvas)
             face = found_in(picture, detect)
             if face is not None:
-                truth = {"identity": identity, "expression": expression, "focal": _focal(scene)}
-                yield number, picture, face, truth
+                truth = {"identity": person.identity, "expression": expression,
+                         "focal": _focal(scene)}  # fmt: skip
+                yield person.number, picture, face, truth
 
 
 def _inner(
