@@ -56,6 +56,11 @@ class Basis:
     neutral: FloatArray
     moves: FloatArray
 
+    @property
+    def expressions(self) -> FloatArray:
+        """(expressions, n, 3) the moves of these alone."""
+        return self.moves[self.identities :]
+
 
 @dataclass(frozen=True, eq=False)
 class Fit:
@@ -101,7 +106,7 @@ def fit_view(face: PhotoFace, rest: FloatArray, focal: float | None = None) -> F
         rest: (468, 3) where the landmarks are on the person at rest, metres.
         focal: focal length in pixels; None if it is not known: then the camera is 1 m away.
     """
-    moves = basis().moves[basis().identities :]
+    moves = basis().expressions
     target, errors = face.landmarks[:MESH_LANDMARKS, :2], _errors(face)
     sigma = _DOUBT * anchors().spread[:MESH_LANDMARKS] * face.eye_distance
     mean, spread, low, high = _priors(face)

@@ -11,22 +11,23 @@ one view says little of what is out of it.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.curves import BoundaryCurves, curve_parameters, mirror_points
+from pdeface.curves import curve_parameters, mirror_points
 from pdeface.face import Face, neutral
 from pdeface.pde import GridEvaluator
 from pdeface.pde.scattered import point_weights
 from pdeface.photo.anchors import anchors
-from pdeface.photo.camera import PARAMETERS, PhotoCamera
-from pdeface.photo.fitting import MESH_LANDMARKS, Fit
+from pdeface.photo.camera import PARAMETERS
+from pdeface.photo.fitting import MESH_LANDMARKS, Fit, basis
 from pdeface.photo.found import PhotoFace
-from pdeface.template import row_u
+from pdeface.photo.unfolding import unfolded
 
-__all__ = ["FACING", "at_level", "curve_residual", "facing", "moved"]
+__all__ = ["FACING", "at_level", "curve_residual", "facing"]
 
 FloatArray = NDArray[np.float64]
 
@@ -36,7 +37,7 @@ _ALONG, _OUT = 3.0e-3, 0.1e-3
 _LENGTH = 0.017
 """Over which it varies, metres."""
 
-_NOISE = 0.006
+_NOISE = 0.005
 """Of a landmark that is fully believed and faces the camera, eye distances."""
 
 FACING = 0.26
@@ -45,10 +46,13 @@ FACING = 0.26
 _CAMERA = 0.05
 """Standard deviation of a camera's turn, radians, of its scale and, in eye distances, shift."""
 
+_EXPRESSION = 0.1
+"""Standard deviation of an expression from what was fitted without the displacement."""
+
+_ROUNDS = 6
+
 _END, _EDGE = 0.15, 0.5
 """Over so much of u, and so many radians of v, displacements fade out towards the face's edge."""
-
-_MESH, _UPRIGHT, _SHRINK, _TRIES = (109, 163), 0.3, 0.4, 16
 
 _SEVEN = [33, 133, 362, 263, 2, 61, 291]
 """Corners of the eyes, the base of the nose, and corners of the mouth."""
@@ -59,36 +63,74 @@ _GROWTH = 0.5e-3
 
 def curve_residual(
     face: Face, views: Sequence[tuple[PhotoFace, Fit]]
-) -> tuple[FloatArray, tuple[PhotoCamera, ...]]:
-    """(K, M, 3) displacement of the curves of a person at rest, metres, and the cameras moved.
+) -> tuple[FloatArray, list[Fit]]:
+    """(K, M, 3) displacement of the curves of a person at rest, metres, and the views refitted.
 
-    The cameras may move a little with it, so that what one of them is off by is no displacement.
+    The cameras and the expressions may change a little with it, so that what one of them is off by
+    is no displacement.
 
     Args:
         face: the person at rest, without it.
         views: the person's faces in photos, and what was fitted to each.
     """
     prior, parts = _prior_root(), []
-    cameras = np.zeros((0, 0))
+    owns = np.zeros((0, 0))
     for found, fit in views:
         eye = found.eye_distance
         off = found.landmarks[:MESH_LANDMARKS, :2] - fit.camera.project(fit.points)
         seen = np.maximum(facing(face, fit), _NOISE) ** 2 * np.sqrt(fit.weight)
-        own = fit.camera.own_moves(fit.points).reshape(PARAMETERS, -1).T / eye
-        cameras = _side_by_side(cameras, own * _camera_sizes(found))
+        owns = _side_by_side(owns, _own_slopes(found, fit) / eye)
         parts.append((_slopes(face, fit) / eye, off.ravel() / eye, _NOISE / np.repeat(seen, 2)))
     rows, off, noise = (np.concatenate(part) for part in zip(*parts, strict=True))
-    slopes = np.hstack([rows @ prior, cameras])
-    grown = np.pad(_growth(face) @ prior, (0, cameras.shape[1]))
+    slopes = np.hstack([rows @ prior, owns])
+    grown = np.pad(_growth(face) @ prior, (0, owns.shape[1]))
     slopes, off, noise = np.vstack([slopes, grown]), np.append(off, 0.0), np.append(noise, _GROWTH)
-    normal = slopes @ slopes.T + np.diag(noise**2)
-    best = slopes.T @ np.linalg.solve(normal, off)
-    steps = best[prior.shape[1] :].reshape(len(views), PARAMETERS)
-    half = prior @ best[: prior.shape[1]]
-    return _unfolded(face, half), tuple(
-        fit.camera.stepped(step * _camera_sizes(found))
-        for step, (found, fit) in zip(steps, views, strict=True)
-    )
+    modes = prior.shape[1]
+    low, high = (np.concatenate([np.full(modes, sign * np.inf), *ends]) for sign, ends in zip(
+        (-1.0, 1.0), zip(*(_room(fit) for _, fit in views), strict=True), strict=True))  # fmt: skip
+    best = _expected(slopes, off, noise, low, high)
+    steps = best[modes:].reshape(len(views), -1)
+    refitted = [_stepped(*view, step) for view, step in zip(views, steps, strict=True)]
+    return unfolded(face, prior @ best[:modes]), refitted
+
+
+def _expected(
+    slopes: FloatArray, off: FloatArray, noise: FloatArray, low: FloatArray, high: FloatArray
+) -> FloatArray:
+    """(m,) the expectation of standard normal amounts, those that would leave their range at its
+    end."""
+    amounts, free = np.zeros(len(low)), np.ones(len(low), dtype=bool)
+    for _ in range(_ROUNDS):
+        left = off - slopes[:, ~free] @ amounts[~free]
+        some = slopes[:, free]
+        amounts[free] = some.T @ np.linalg.solve(some @ some.T + np.diag(noise**2), left)
+        inside = np.clip(amounts, low, high)
+        beyond = free & (inside != amounts)
+        amounts, free = inside, free & ~beyond
+        if not beyond.any():
+            break
+    return amounts
+
+
+def _own_slopes(found: PhotoFace, fit: Fit) -> FloatArray:
+    """(936, 6 + n) derivatives of pixels by what is a photo's own, over its standard deviation."""
+    camera = fit.camera.own_moves(fit.points) * _camera_sizes(found)[:, None, None]
+    expression = _EXPRESSION * fit.camera.moves(fit.points, basis().expressions)
+    return np.concatenate([camera, expression]).reshape(-1, 2 * MESH_LANDMARKS).T
+
+
+def _room(fit: Fit) -> tuple[FloatArray, FloatArray]:
+    """(6 + n,) each: how far these may change, standard deviations."""
+    free = np.full(PARAMETERS, np.inf)
+    down, up = -fit.expression / _EXPRESSION, (1.0 - fit.expression) / _EXPRESSION
+    return np.append(-free, down), np.append(free, up)
+
+
+def _stepped(found: PhotoFace, fit: Fit, step: FloatArray) -> Fit:
+    camera = fit.camera.stepped(step[:PARAMETERS] * _camera_sizes(found))
+    expression = np.clip(fit.expression + _EXPRESSION * step[PARAMETERS:], 0.0, 1.0)
+    points = fit.points + np.tensordot(expression - fit.expression, basis().expressions, 1)
+    return replace(fit, camera=camera, expression=expression, points=points)
 
 
 def _growth(face: Face) -> FloatArray:
@@ -106,20 +148,6 @@ def _growth(face: Face) -> FloatArray:
 def _camera_sizes(found: PhotoFace) -> FloatArray:
     """(6,) standard deviation of each of a camera's parameters."""
     return _CAMERA * np.array([1.0, 1.0, 1.0, 1.0, found.eye_distance, found.eye_distance])
-
-
-def _unfolded(face: Face, half: FloatArray) -> FloatArray:
-    """(K, M, 3) the displacement of these front halves, less of it where it folds the face."""
-    curves, count = face.curves.shape
-    half = half.reshape(curves, count // 2, 3)
-    points = face.curves.points[:, : count // 2]
-    for _ in range(_TRIES):
-        folds = _folds(face, moved(face, mirror_points(half)))
-        if not len(folds):
-            return mirror_points(half)
-        away = np.linalg.norm(points[:, :, None] - folds, axis=-1).min(axis=-1)
-        half = half * (1.0 - _SHRINK * np.exp(-0.5 * (away / _LENGTH) ** 2))[..., None]
-    return np.zeros_like(face.curves.points)
 
 
 def _side_by_side(one: FloatArray, other: FloatArray) -> FloatArray:
@@ -152,12 +180,6 @@ def at_level(residual: FloatArray, shape: tuple[int, int]) -> FloatArray:
     own = residual.shape[0], residual.shape[1]
     half = GridEvaluator(own, u, v).positions(residual)
     return mirror_points(np.asarray(half, dtype=np.float64))
-
-
-def moved(face: Face, residual: FloatArray) -> Face:
-    """The face through its curves and their displacement."""
-    curves = face.curves
-    return face.with_curves(BoundaryCurves(curves.points + residual, curves.mirror_z))
 
 
 def _slopes(face: Face, fit: Fit) -> FloatArray:
@@ -213,13 +235,3 @@ def _fade(at: FloatArray, end: float, reach: float) -> FloatArray:
     """0 at 0 and at the end, 1 from ``reach`` on."""
     away = np.clip(np.minimum(at, end - at) / reach, 0.0, 1.0)
     return np.asarray(away**2 * (3.0 - 2.0 * away))
-
-
-def _folds(before: Face, after: Face) -> FloatArray:
-    """(n, 3) where the surface has turned over, but between the lips, which touch."""
-    was, now = (face.mesh(*_MESH, openings="none") for face in (before, after))
-    upright = np.einsum("ni,ni->n", was.normals, now.normals).reshape(_MESH)
-    row = np.linspace(0.0, 1.0, _MESH[0])
-    lips = (row_u("upper_lip_border") < row) & (row < row_u("lower_lip_border"))
-    folded = (upright < _UPRIGHT) & ~lips[:, None]
-    return np.asarray(was.vertices.reshape(*_MESH, 3)[folded])

@@ -16,7 +16,8 @@ from pdeface.photo.fitting import MESH_LANDMARKS, Fit, basis, fit_view
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.lens import DIAGONAL
 from pdeface.photo.regression import expected_identity
-from pdeface.photo.residual import FACING, at_level, curve_residual, facing, moved
+from pdeface.photo.residual import FACING, at_level, curve_residual, facing
+from pdeface.photo.unfolding import moved
 
 __all__ = ["PhotoShape", "fit_shape", "fit_shapes"]
 
@@ -86,10 +87,9 @@ def fit_shapes(
     person = neutral().with_weights(identity)
     rest = _landmarks_at(person)
     fits = [fit_view(f, rest, p) for f, p in zip(faces, pixels, strict=True)]
-    residual, cameras = curve_residual(person, list(zip(faces, fits, strict=True)))
+    residual, fits = curve_residual(person, list(zip(faces, fits, strict=True)))
     step = _landmarks_at(moved(person, residual)) - rest
-    fits = [replace(fit, camera=camera, points=fit.points + step)
-            for fit, camera in zip(fits, cameras, strict=True)]  # fmt: skip
+    fits = [replace(fit, points=fit.points + step) for fit in fits]
     return tuple(
         _shape(face, person, fit, identity, residual) for face, fit in zip(faces, fits, strict=True)
     )
