@@ -100,10 +100,11 @@ def _expected(
     """(m,) the expectation of standard normal amounts, those that would leave their range at its
     end."""
     amounts, free = np.zeros(len(low)), np.ones(len(low), dtype=bool)
+    weighed = slopes.T / noise**2
+    normal, pull = weighed @ slopes + np.eye(len(low)), weighed @ off
     for _ in range(_ROUNDS):
-        left = off - slopes[:, ~free] @ amounts[~free]
-        some = slopes[:, free]
-        amounts[free] = some.T @ np.linalg.solve(some @ some.T + np.diag(noise**2), left)
+        left = pull[free] - normal[np.ix_(free, ~free)] @ amounts[~free]
+        amounts[free] = np.linalg.solve(normal[np.ix_(free, free)], left)
         inside = np.clip(amounts, low, high)
         beyond = free & (inside != amounts)
         amounts, free = inside, free & ~beyond

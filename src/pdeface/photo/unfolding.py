@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from pdeface.curves import BoundaryCurves, mirror_points
 from pdeface.face import Face
 from pdeface.template import row_u
+from pdeface.uvmesh import FaceMesh
 
 __all__ = ["moved", "unfolded"]
 
@@ -23,8 +24,10 @@ def unfolded(face: Face, half: FloatArray) -> FloatArray:
     curves, count = face.curves.shape
     half = half.reshape(curves, count // 2, 3)
     points = face.curves.points[:, : count // 2]
+    before = face.mesh(*_MESH, openings="none")
     for _ in range(_TRIES):
-        folds = _folds(face, moved(face, mirror_points(half)))
+        after = moved(face, mirror_points(half)).mesh(*_MESH, openings="none")
+        folds = _folds(before, after)
         if not len(folds):
             return mirror_points(half)
         away = np.linalg.norm(points[:, :, None] - folds, axis=-1).min(axis=-1)
@@ -38,11 +41,10 @@ def moved(face: Face, residual: FloatArray) -> Face:
     return face.with_curves(BoundaryCurves(curves.points + residual, curves.mirror_z))
 
 
-def _folds(before: Face, after: Face) -> FloatArray:
+def _folds(before: FaceMesh, after: FaceMesh) -> FloatArray:
     """(n, 3) where the surface has turned over, but between the lips, which touch."""
-    was, now = (face.mesh(*_MESH, openings="none") for face in (before, after))
-    upright = np.einsum("ni,ni->n", was.normals, now.normals).reshape(_MESH)
+    upright = np.einsum("ni,ni->n", before.normals, after.normals).reshape(_MESH)
     row = np.linspace(0.0, 1.0, _MESH[0])
     lips = (row_u("upper_lip_border") < row) & (row < row_u("lower_lip_border"))
     folded = (upright < _UPRIGHT) & ~lips[:, None]
-    return np.asarray(was.vertices.reshape(*_MESH, 3)[folded])
+    return np.asarray(before.vertices.reshape(*_MESH, 3)[folded])
