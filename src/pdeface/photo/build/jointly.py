@@ -16,9 +16,9 @@ __all__ = ["Joint", "fit_jointly", "folds_of"]
 FloatArray = NDArray[np.float64]
 Floats = NDArray[np.floating]
 
-COST = 0.2
+COST = 0.04
 """What squared coefficients cost, where the features have the variance 1. Half of it is best for
-people kept out, twice as much for people with a kind of skin that was kept out."""
+people kept out; for people with a kind of skin that was kept out several times as much was."""
 
 SHARE = 1.0
 """What a landmark's feature is multiplied by beside one of the layer's."""
@@ -66,9 +66,7 @@ def fit_jointly(
         identity: (n, 50) the truth.
         person: (n,) whose it is.
     """
-    plain = inner.reshape(-1, inner.shape[-1])
-    centre, spread = plain.mean(axis=0, dtype=np.float64), plain.std(axis=0, dtype=np.float64)
-    spread = spread + _FLOOR * np.median(spread)
+    centre, spread = _standards(inner)
     sizes = np.full(regressors.shape[1], SHARE)
     sizes[0] = 1.0
 
@@ -91,6 +89,19 @@ def fit_jointly(
             others = solved(gram - own, products - own_products, int((~out).sum()))
             held[out] = others(inner[out, 0], regressors[out])
     return solved(gram, products, len(inner)), held
+
+
+def _standards(inner: Floats) -> tuple[FloatArray, FloatArray]:
+    """(f,) each: the mean of each value of the layer, and what it is divided by."""
+    plain = inner.reshape(-1, inner.shape[-1])
+    sums, squares = np.zeros((2, plain.shape[1]))
+    for start in range(0, len(plain), _CHUNK):
+        some = plain[start : start + _CHUNK].astype(np.float64)
+        sums += some.sum(axis=0)
+        squares += (some**2).sum(axis=0)
+    centre = sums / len(plain)
+    spread = np.sqrt(np.maximum(squares / len(plain) - centre**2, 0.0))
+    return centre, spread + _FLOOR * np.median(spread)
 
 
 def _sums(inner: Floats, regressors: FloatArray, identity: FloatArray) -> tuple[Floats, Floats]:

@@ -154,11 +154,15 @@ def _ridge(x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def _agreement(held: FloatArray, person: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
-    """(50, 50) covariances of what is read out of one photo, and between two of one person."""
-    variance = held.T @ held / len(held)
+    """(50, 50) covariances of what is read out of one photo, and between two of one person.
+
+    Both of the people of whom there are several pictures.
+    """
     pairs = [(i, j) for i in range(len(held)) for j in (i + 1, i + 2)
              if j < len(held) and person[i] == person[j]]  # fmt: skip
     one, other = np.array(pairs).T
+    several = held[np.union1d(one, other)]
+    variance = several.T @ several / len(several)
     common = held[one].T @ held[other] / len(one)
     return variance, 0.5 * (common + common.T)
 
