@@ -26,7 +26,7 @@ from pdeface.pictures.raster_vtk import Canvas
 EYEBALL = 72
 """Vertices of each of the two eyeballs, which come last."""
 
-NEAR, HAIRLINE = 0.02, 0.1
+NEAR, PAINTED, HAIRLINE = 0.02, 0.06, 0.1
 EYES = np.array([0.0, 0.0361, 0.0799])
 """Between the eyeballs of ICT-FaceKit's head, whose frame the pictures are taken in."""
 
@@ -50,14 +50,20 @@ def _subject(path: Path, detect: Any) -> Subject:
     known = _landmarks(bare, surface, detect)
     uv = anchors().uv[: len(known)]
     to_uv = RBFInterpolator(known, uv, neighbors=60, smoothing=1e-6)
-    near = cKDTree(known).query(bare.vertices)[0] < NEAR
-    near &= in_sight(bare.vertices, surface)
-    texcoords = np.full((len(bare.vertices), 2), -1.0)
-    texcoords[near] = (to_uv(bare.vertices[near]) / (1.0, np.pi))[:, ::-1]
-    head = replace(bare, texcoords=texcoords)
+    away = cKDTree(known).query(bare.vertices)[0]
+    near = (away < NEAR) & in_sight(bare.vertices, surface)
     seven = known[list(LANDMARKS)]
-    scan = Spread(head, cKDTree(bare.vertices).query(seven)[1]).scan(head.vertices)
-    return Subject(path.stem, replace(scan, seven=seven, seven_uv=uv[list(LANDMARKS)]), head)
+    spread = Spread(_mapped(bare, near, to_uv), cKDTree(bare.vertices).query(seven)[1])
+    scan = replace(spread.scan(bare.vertices), seven=seven, seven_uv=uv[list(LANDMARKS)])
+    # Skins fade out towards the texture's edge, which lies beyond the landmarks.
+    return Subject(path.stem, scan, _mapped(bare, away < PAINTED, to_uv))
+
+
+def _mapped(head: Head, some: np.ndarray, to_uv: RBFInterpolator) -> Head:
+    """The head with the texture's place for some of its vertices."""
+    texcoords = np.full((len(head.vertices), 2), -1.0)
+    texcoords[some] = (to_uv(head.vertices[some]) / (1.0, np.pi))[:, ::-1]
+    return replace(head, texcoords=texcoords)
 
 
 def _landmarks(head: Head, surface: np.ndarray, detect: Any) -> np.ndarray:
