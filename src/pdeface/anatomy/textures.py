@@ -65,6 +65,14 @@ def eye(colour: Colour = IRIS_COLOUR, size: int = 512, white: Colour = EYE_WHITE
     return _pixels(_mix(pupil, colours, _step(PUPIL - 0.5 * blur, PUPIL + 0.4 * blur, angle)))
 
 
+DUSK = {"upper": (0.50, 1.35), "lower": (0.30, 0.85)}
+"""Angles between which the shadow of the cheeks falls on an arch, radians from its middle. Below an
+open jaw one looks along the lower arch."""
+
+SHADOW = 0.80, 0.88, 0.88
+"""How much of red, green and blue the shadow takes."""
+
+
 def mouth(size: int = 128) -> Pixels:
     """(size, 8, 3) uint8 texture of the cavity: lips at its margin, dark red within."""
     u, _ = _places(size, 8)
@@ -92,8 +100,9 @@ def teeth(name: str, size: int = 512) -> Pixels:
     tooth = np.array(TOOTH, float) * (shade * (1.0 - 0.10 * height))[..., None]
     gum = np.array(GUM, float) * (1.0 - 0.10 * across**2)[..., None]
     # No renderer of such a mesh shades a mouth from within: the shadow of the cheeks is painted.
-    dusk = 1.0 - 0.70 * _step(0.50, 1.35, np.abs(angle)) * np.ones_like(height)
-    return _pixels(_mix(tooth, gum, _step(-0.03, 0.03, height - gum_line)) * dusk[..., None])
+    dusk = _step(*DUSK[name], np.abs(angle)) * np.ones_like(height)
+    light = 1.0 - dusk[..., None] * np.array(SHADOW)
+    return _pixels(_mix(tooth, gum, _step(-0.03, 0.03, height - gum_line)) * light)
 
 
 def tongue(size: int = 128) -> Pixels:
