@@ -10,12 +10,14 @@ from scipy.spatial import cKDTree
 
 import pdeface
 from pdeface.controls import CONTROLS
+from pdeface.curves import mirror_points
 from pdeface.errors import InputError
 from pdeface.photo import PhotoFace, find_faces, fit_shape, fit_shapes
 from pdeface.photo.anchors import anchors
 from pdeface.photo.camera import PARAMETERS, PhotoCamera
 from pdeface.photo.fitting import MESH_LANDMARKS, fit_view
 from pdeface.photo.found import LANDMARKS
+from pdeface.photo.unfolding import moved, unfolded
 from pdeface.template import feature_points
 
 SEEDS = range(5001, 5006)
@@ -166,17 +168,31 @@ def test_the_residual_leaves_the_size_of_the_features(collins) -> None:
     assert abs(grown) < 2e-3
 
 
-def test_a_residual_that_folds_is_less_only_where_it_does(collins) -> None:
-    marks = collins.landmarks.copy()
-    marks[291, :2] += (-0.55 * collins.eye_distance, 0.0)  # one corner of the mouth, inwards
-    marks[[409, 375, 287, 308], :2] += (-0.4 * collins.eye_distance, 0.0)
-    plain, pulled = fit_shape(collins), fit_shape(replace(collins, landmarks=marks))
-    bare = pdeface.neutral().with_weights(pulled.identity)
-    one, other = (f.mesh(109, 163, openings="none").normals for f in (bare, pulled.face))
-    upright = np.einsum("ni,ni->n", one, other).reshape(109, 163)
-    assert np.delete(upright, slice(68, 81), axis=0).min() > 0.3
-    size = np.linalg.norm(pulled.residual, axis=-1), np.linalg.norm(plain.residual, axis=-1)
-    assert size[0][:8].max() > 0.5 * size[1][:8].max()
+def test_a_displacement_that_folds_is_less_only_where_it_does() -> None:
+    """A push down the cheek folds it; the chin, far away, goes where it was to go."""
+    face = pdeface.neutral()
+    points = face.curves.points[:, : face.curves.shape[1] // 2]
+
+    def bump(u: float, v: float, width: float, push: tuple[float, float, float]) -> np.ndarray:
+        middle = face.surface()(np.array([u]), np.array([v]))
+        away = np.linalg.norm(points - middle, axis=-1)
+        return np.exp(-0.5 * (away / width) ** 2)[..., None] * np.array(push)
+
+    def upright(residual: np.ndarray) -> float:
+        meshes = [f.mesh(109, 163, openings="none") for f in (face, moved(face, residual))]
+        rows = np.einsum("ni,ni->n", *(m.normals for m in meshes)).reshape(109, 163)
+        return float(np.delete(rows, slice(68, 81), axis=0).min())
+
+    cheek = bump(0.45, np.pi / 2 + 0.7, 0.006, (0.0, -0.03, 0.0))
+    chin = bump(0.9, np.pi / 2, 0.008, (0.0, 0.0, 0.002))
+    given = mirror_points(cheek + chin)
+    assert upright(given) < 0.0
+    found = unfolded(face, cheek + chin)
+    assert upright(found) > 0.3
+    sizes = [np.linalg.norm(each, axis=-1) for each in (given, found)]
+    at_cheek, at_chin = (np.linalg.norm(mirror_points(b), axis=-1) > 1e-3 for b in (cheek, chin))
+    assert 0.0 < sizes[1][at_cheek].max() < 0.8 * sizes[0][at_cheek].max()
+    np.testing.assert_allclose(found[at_chin], given[at_chin], atol=2e-5)
 
 
 def test_photos_that_agree_leave_less_at_the_mean(collins) -> None:

@@ -10,8 +10,7 @@ pytest.importorskip("vtk", reason="needs the extra 'render'")
 
 from pdeface.photo.build.heads import HeadSpace
 from pdeface.photo.build.straying import Nearest, bend
-
-ACROSS = np.array([-1.0, 1.0, 1.0])
+from pdeface.photo.mirrors import ACROSS
 
 
 @pytest.fixture(scope="module")

@@ -35,6 +35,13 @@ LIP, DEEP, THROAT = (170, 100, 92), (104, 40, 40), (32, 8, 10)
 TOOTH, GUM = (236, 228, 208), (196, 118, 114)
 TONGUE = (192, 104, 104)
 
+DUSK = {"upper": (0.50, 1.35), "lower": (0.30, 0.85)}
+"""Angles between which the shadow of the cheeks falls on an arch, radians from its middle. Below an
+open jaw one looks along the lower arch."""
+
+SHADOW = 0.80, 0.88, 0.88
+"""How much of red, green and blue the shadow takes."""
+
 
 def eye(colour: Colour = IRIS_COLOUR, size: int = 512, white: Colour = EYE_WHITE) -> Pixels:
     """(size, size, 3) uint8 texture of an eyeball.
@@ -63,14 +70,6 @@ def eye(colour: Colour = IRIS_COLOUR, size: int = 512, white: Colour = EYE_WHITE
     colours = _mix(iris, sclera, _step(IRIS - blur, IRIS + blur, angle))
     pupil = np.array([12.0, 10.0, 10.0])
     return _pixels(_mix(pupil, colours, _step(PUPIL - 0.5 * blur, PUPIL + 0.4 * blur, angle)))
-
-
-DUSK = {"upper": (0.50, 1.35), "lower": (0.30, 0.85)}
-"""Angles between which the shadow of the cheeks falls on an arch, radians from its middle. Below an
-open jaw one looks along the lower arch."""
-
-SHADOW = 0.80, 0.88, 0.88
-"""How much of red, green and blue the shadow takes."""
 
 
 def mouth(size: int = 128) -> Pixels:

@@ -50,6 +50,7 @@ _EXPRESSION = 0.1
 """Standard deviation of an expression from what was fitted without the displacement."""
 
 _ROUNDS = 6
+"""How often what reaches the end of its range is left there, and the rest solved anew."""
 
 _END, _EDGE = 0.15, 0.5
 """Over so much of u, and so many radians of v, displacements fade out towards the face's edge."""
@@ -86,26 +87,28 @@ def curve_residual(
     grown = np.pad(_growth(face) @ prior, (0, owns.shape[1]))
     slopes, off, noise = np.vstack([slopes, grown]), np.append(off, 0.0), np.append(noise, _GROWTH)
     modes = prior.shape[1]
-    low, high = (np.concatenate([np.full(modes, sign * np.inf), *ends]) for sign, ends in zip(
-        (-1.0, 1.0), zip(*(_room(fit) for _, fit in views), strict=True), strict=True))  # fmt: skip
-    best = _expected(slopes, off, noise, low, high)
+    room = np.hstack([_unbounded(modes), *(_room(fit) for _, fit in views)])
+    best = _expected(slopes, off, noise, room)
     steps = best[modes:].reshape(len(views), -1)
     refitted = [_stepped(*view, step) for view, step in zip(views, steps, strict=True)]
     return unfolded(face, prior @ best[:modes]), refitted
 
 
 def _expected(
-    slopes: FloatArray, off: FloatArray, noise: FloatArray, low: FloatArray, high: FloatArray
+    slopes: FloatArray, off: FloatArray, noise: FloatArray, room: FloatArray
 ) -> FloatArray:
-    """(m,) the expectation of standard normal amounts, those that would leave their range at its
-    end."""
-    amounts, free = np.zeros(len(low)), np.ones(len(low), dtype=bool)
+    """(m,) the expectation of standard normal amounts.
+
+    Those that would leave their room, (2, m) lowest and highest, stay at its end.
+    """
+    count = slopes.shape[1]
+    amounts, free = np.zeros(count), np.ones(count, dtype=bool)
     weighed = slopes.T / noise**2
-    normal, pull = weighed @ slopes + np.eye(len(low)), weighed @ off
+    normal, pull = weighed @ slopes + np.eye(count), weighed @ off
     for _ in range(_ROUNDS):
         left = pull[free] - normal[np.ix_(free, ~free)] @ amounts[~free]
         amounts[free] = np.linalg.solve(normal[np.ix_(free, free)], left)
-        inside = np.clip(amounts, low, high)
+        inside = np.clip(amounts, *room)
         beyond = free & (inside != amounts)
         amounts, free = inside, free & ~beyond
         if not beyond.any():
@@ -120,11 +123,15 @@ def _own_slopes(found: PhotoFace, fit: Fit) -> FloatArray:
     return np.concatenate([camera, expression]).reshape(-1, 2 * MESH_LANDMARKS).T
 
 
-def _room(fit: Fit) -> tuple[FloatArray, FloatArray]:
-    """(6 + n,) each: how far these may change, standard deviations."""
-    free = np.full(PARAMETERS, np.inf)
-    down, up = -fit.expression / _EXPRESSION, (1.0 - fit.expression) / _EXPRESSION
-    return np.append(-free, down), np.append(free, up)
+def _unbounded(count: int) -> FloatArray:
+    """(2, count) room without end."""
+    return np.outer([-np.inf, np.inf], np.ones(count))
+
+
+def _room(fit: Fit) -> FloatArray:
+    """(2, 6 + n) how far down and up these may change, standard deviations."""
+    ends = np.array([0.0, 1.0])[:, None] - fit.expression
+    return np.hstack([_unbounded(PARAMETERS), ends / _EXPRESSION])
 
 
 def _stepped(found: PhotoFace, fit: Fit, step: FloatArray) -> Fit:

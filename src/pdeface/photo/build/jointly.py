@@ -17,8 +17,9 @@ FloatArray = NDArray[np.float64]
 Floats = NDArray[np.floating]
 
 COST = 0.04
-"""What squared coefficients cost, where the features have the variance 1. Half of it is best for
-people kept out; for people with a kind of skin that was kept out several times as much was."""
+"""What squared coefficients cost, where the features have the variance 1. Less is a
+little better for people kept out; with a quarter of the people, those with a kind of skin that was
+kept out wanted four times what the rest did."""
 
 SHARE = 1.0
 """What a landmark's feature is multiplied by beside one of the layer's."""

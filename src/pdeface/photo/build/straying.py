@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from pdeface.controls.measured import IDENTITIES
 from pdeface.photo.build.heads import Head, HeadSpace
+from pdeface.photo.mirrors import ACROSS
 
 __all__ = ["MIXTURE", "Nearest", "bend"]
 
@@ -32,8 +33,6 @@ _NOISE, _POINTS = 0.7e-3, 100
 _ASIDE = 1.2
 """How far from the midline the face reaches, in radians of v."""
 
-_ACROSS = np.array([-1.0, 1.0, 1.0])
-
 
 def bend(rng: np.random.Generator, vertices: FloatArray) -> FloatArray:
     """(V, 3) displacements of a head's vertices, metres, strong or hardly any."""
@@ -43,8 +42,8 @@ def bend(rng: np.random.Generator, vertices: FloatArray) -> FloatArray:
         waves = rng.normal(0.0, 1.0 / length, (_WAVES, 3))
         phases = rng.uniform(0.0, 2.0 * np.pi, _WAVES)
         sizes = rng.normal(0.0, strength * size * np.sqrt(2.0 / _WAVES), (_WAVES, 3))
-        one, other = (np.cos(x @ waves.T + phases) @ sizes for x in (vertices, vertices * _ACROSS))
-        even, odd = one + other * _ACROSS, one - other * _ACROSS
+        one, other = (np.cos(x @ waves.T + phases) @ sizes for x in (vertices, vertices * ACROSS))
+        even, odd = one + other * ACROSS, one - other * ACROSS
         moved += (even + _ONE_SIDED * odd) / np.sqrt(2.0)
     return moved
 
