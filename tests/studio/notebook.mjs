@@ -41,11 +41,16 @@ try {
   page.setDefaultTimeout(90_000);
   await page.goto(`http://127.0.0.1:${port}/lab/tree/face.ipynb?reset`);
   const cells = page.locator(".jp-Notebook .jp-CodeCell");
-  // The kernel is ready when a cell has a number.
+  // A key that is pressed while the notebook is still being put together is lost: a cell that was
+  // told to run has a star until its answer, then a number.
   const run = async (n) => {
-    await cells.nth(n).locator(".cm-content").click();
-    await page.keyboard.press("Shift+Enter");
     const prompt = cells.nth(n).locator(".jp-InputArea-prompt");
+    for (let tries = 0; tries < 20; tries++) {
+      await cells.nth(n).locator(".cm-content").click();
+      await page.keyboard.press("Shift+Enter");
+      const heard = prompt.filter({ hasText: /\[(\*|\d+)\]/ }).waitFor({ timeout: 5_000 });
+      if (await heard.then(() => true, () => false)) break;
+    }
     await prompt.filter({ hasText: /\[\d+\]/ }).waitFor();
   };
   await page.locator(".jp-Notebook-ExecutionIndicator[data-status=idle]").waitFor();
@@ -78,6 +83,9 @@ try {
   await view.screenshot({ path: join(folder, "notebook.png") });
   report.moved = !rest.equals(moved);
   console.log(JSON.stringify(report));
+} catch (error) {
+  error.message += `\nJupyterLab said:\n${said.slice(-3000)}`;
+  throw error;
 } finally {
   await browser.close();
   server.kill();
