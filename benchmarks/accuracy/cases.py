@@ -16,7 +16,8 @@ from benchmarks.accuracy.scoring import Score
 from pdeface.photo import PhotoFace, find_faces, photo_views
 from pdeface.photo.build.samples import random_expression
 from pdeface.photo.build.scenes import Scene, photograph
-from pdeface.photo.build.skins import Skin, random_skin
+from pdeface.photo.build.skins import random_skin
+from pdeface.photo.build.wardrobe import Cover, random_covers, random_ground
 from pdeface.photo.landmarker import landmarker
 from pdeface.pictures.light import RIGS
 from pdeface.pictures.raster_vtk import Canvas
@@ -69,22 +70,39 @@ def subjects(folder: Path, model: Path, people: int) -> Iterator[tuple[str, Subj
     yield from (("MakeHuman", head) for head in heads)
 
 
-def results(
-    group: str, subject: Subject, number: int, model: Path, canvas: Canvas
-) -> Iterator[Result]:
+class Sitting:
+    """A head that sits for its pictures.
+
+    Args:
+        subject: who.
+        number: decides the skin, the sides, the lenses and the lights.
+        dressed: whether it has hair and clothes, and something behind it.
+    """
+
+    def __init__(self, subject: Subject, number: int, dressed: bool = False) -> None:
+        self.subject, self.number, self.dressed = subject, number, dressed
+        self._skin = random_skin(np.random.default_rng([SEED, number, 1]))
+        rng = np.random.default_rng([SEED, number, 2])
+        self._covers: list[Cover] = (
+            random_covers(rng, subject.head, self._skin.tone) if dressed else []
+        )
+
+    def photo(self, scene: Scene, canvas: Canvas) -> np.ndarray:
+        """A picture."""
+        rng = np.random.default_rng([SEED, self.number, 3])
+        ground = random_ground(rng, scene.size) if self.dressed else None
+        return photograph(self.subject.head, self._skin, scene, canvas, self._covers, ground)
+
+
+def results(group: str, sitting: Sitting, model: Path, canvas: Canvas) -> Iterator[Result]:
     """One picture from each side, and then three together."""
-    neutral = pdeface.neutral()
-    bases = Score(neutral, subject.scan), Score(neutral, subject.scan, scaled=False)
-    skin = random_skin(np.random.default_rng([SEED, number, 1]))
-    singles = [_scene(yaw, number + k) for k, yaw in enumerate(YAWS)]
-    for scenes in ([scene] for scene in singles):
-        result = _result(group, subject, scenes, skin, bases, model, canvas)
+    neutral, scan, number = pdeface.neutral(), sitting.subject.scan, sitting.number
+    bases = Score(neutral, scan), Score(neutral, scan, scaled=False)
+    singles = [[_scene(yaw, number + k)] for k, yaw in enumerate(YAWS)]
+    for scenes in (*singles, [_scene(yaw, number, plain=True) for yaw in THREE]):
+        result = _result(group, sitting, scenes, bases, model, canvas)
         if result is not None:
             yield result
-    three = [_scene(yaw, number, plain=True) for yaw in THREE]
-    result = _result(group, subject, three, skin, bases, model, canvas)
-    if result is not None:
-        yield result
 
 
 def _scene(yaw: float, number: int, plain: bool = False) -> Scene:
@@ -102,16 +120,16 @@ def _scene(yaw: float, number: int, plain: bool = False) -> Scene:
 
 def _result(
     group: str,
-    subject: Subject,
+    sitting: Sitting,
     scenes: Sequence[Scene],
-    skin: Skin,
     bases: tuple[Score, Score],
     model: Path,
     canvas: Canvas,
 ) -> Result | None:
     """None where MediaPipe finds no face."""
     found: list[PhotoFace] = []
-    photos = [photograph(subject.head, skin, scene, canvas) for scene in scenes]
+    photos = [sitting.photo(scene, canvas) for scene in scenes]
+    subject = sitting.subject
     for photo in photos:
         faces = find_faces(photo, model)
         if not faces:

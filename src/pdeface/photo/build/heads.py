@@ -17,7 +17,7 @@ from pdeface.pictures.light import Rig, decode_srgb, light_up
 from pdeface.pictures.solid import Solid
 from pdeface.template.build.head import load_head
 
-__all__ = ["Head", "HeadSpace", "eye_colors", "triangulated"]
+__all__ = ["Head", "HeadSpace", "eye_colors", "mesh_normals", "triangulated"]
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int32]
@@ -55,7 +55,7 @@ class Head:
 
     def solids(self, skin: Skin, camera: Camera, rig: Rig) -> list[Solid]:
         """The head, painted and lit."""
-        normals = _normals(self.vertices, self.skin)
+        normals = mesh_normals(self.vertices, self.skin)
         beside = np.abs(self.texcoords - 0.5).max(axis=1) > 0.5
         albedo = np.where(beside[:, None], decode_srgb(skin.tone), 1.0)
         if skin.hair is not None:
@@ -71,7 +71,7 @@ class Head:
         eyes = np.stack([_LIGHTEST, decode_srgb(skin.iris), np.full(3, 0.003)])[self.iris]
         colors = {"eyes": eyes, "teeth": decode_srgb(_TEETH), "gums": decode_srgb(_GUMS)}
         for name, triangles in self.others.items():
-            normals = _normals(self.vertices, triangles)
+            normals = mesh_normals(self.vertices, triangles)
             lit = light_up(self.vertices, normals, colors[name], camera, rig)
             solids.append(Solid(self.vertices, triangles, lit))
         return solids
@@ -151,7 +151,7 @@ def eye_colors(vertices: FloatArray, eyeball: IntArray) -> NDArray[np.int64]:
     return kinds
 
 
-def _normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+def mesh_normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     """(V, 3) unit normals, the mean of the triangles' by their areas."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     flat = np.cross(b - a, c - a)

@@ -16,7 +16,8 @@ from pdeface.photo.build.heads import Head, HeadSpace
 from pdeface.photo.build.scenes import Scene, photograph, random_scene
 from pdeface.photo.build.skins import Skin, random_skin
 from pdeface.photo.build.spoiling import spoiled
-from pdeface.photo.build.straying import MIXTURE, Nearest, bend
+from pdeface.photo.build.straying import MIXTURE, Nearest, bend, vary
+from pdeface.photo.build.wardrobe import random_covers, random_ground
 from pdeface.photo.found import PhotoFace
 from pdeface.photo.landmarker import faces_both_ways, faces_in, landmarker
 from pdeface.photo.network import Network, square
@@ -111,12 +112,22 @@ def _pictures(
         for _ in range(views):
             expression = random_expression(person.rng, person.expressions)
             scene = random_scene(person.rng)
-            picture = photograph(person.head(expression), person.skin, scene, canvas)
+            head = _expressive(person, expression)
+            covers = random_covers(person.rng, head, person.skin.tone)
+            ground = random_ground(person.rng, scene.size)
+            picture = photograph(head, person.skin, scene, canvas, covers, ground)
             face = found_in(picture, detect)
             if face is not None:
                 truth = {"identity": person.identity, "expression": expression,
                          "focal": _focal(scene)}  # fmt: skip
                 yield person.number, picture, face, truth
+
+
+def _expressive(person: _Person, expression: FloatArray) -> Head:
+    """The person's head with an expression, in a way of their own."""
+    rest, head = person.head(np.zeros_like(expression)), person.head(expression)
+    moved = vary(person.rng, rest.vertices, head.vertices - rest.vertices)
+    return replace(head, vertices=rest.vertices + moved)
 
 
 def _inner(

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pdeface.photo.build.heads import Head
+from pdeface.photo.build.heads import Head, mesh_normals
 from pdeface.photo.build.skins import Skin
+from pdeface.photo.build.wardrobe import Cover
 from pdeface.pictures.camera import Camera
-from pdeface.pictures.light import RIGS, Lamp, Rig
+from pdeface.pictures.light import RIGS, Lamp, Rig, decode_srgb, light_up
 from pdeface.pictures.raster_vtk import Canvas
+from pdeface.pictures.solid import Solid
 
 __all__ = ["Scene", "photograph", "random_scene"]
 
@@ -91,9 +94,31 @@ def random_scene(rng: np.random.Generator) -> Scene:
     )
 
 
-def photograph(head: Head, skin: Skin, scene: Scene, canvas: Canvas) -> NDArray[np.uint8]:
-    """(H, W, 3) the picture."""
+def photograph(
+    head: Head,
+    skin: Skin,
+    scene: Scene,
+    canvas: Canvas,
+    covers: Sequence[Cover] = (),
+    ground: FloatArray | None = None,
+) -> NDArray[np.uint8]:
+    """(H, W, 3) the picture.
+
+    Args:
+        head: painted with the skin.
+        skin: of its face.
+        scene: how it is photographed.
+        canvas: draws.
+        covers: what is worn.
+        ground: (H, W, 3) sRGB from 0 to 1 of what is behind, instead of the scene's.
+    """
     camera = scene.camera
-    pixels = canvas.draw(head.solids(skin, camera, scene.rig), camera, scene.size).astype(float)
-    picture = pixels[..., :3] + (255.0 - pixels[..., 3:]) * np.array(scene.ground)
+    solids = head.solids(skin, camera, scene.rig)
+    for vertices, triangles, color in covers:
+        lit = light_up(vertices, mesh_normals(vertices, triangles), decode_srgb(color), camera,
+                       scene.rig)  # fmt: skip
+        solids.append(Solid(vertices, triangles, lit))
+    pixels = canvas.draw(solids, camera, scene.size).astype(float)
+    behind = np.array(scene.ground) if ground is None else ground
+    picture = pixels[..., :3] + (255.0 - pixels[..., 3:]) * behind
     return np.asarray(np.clip(np.rint(picture), 0, 255), dtype=np.uint8)

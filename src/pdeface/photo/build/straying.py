@@ -4,6 +4,8 @@ What is learnt from mixtures of one set of heads trusts whatever tells these apa
 no such mixture, so most of the heads that are learnt from are bent: every point of space is moved
 by a random field that is smooth at several lengths, and mostly alike on both sides. The identity
 that is then to be found is of the mixture that comes nearest to the bent face.
+
+Nor does everybody smile alike: what an expression moves is moved more here and less there.
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from pdeface.controls.measured import IDENTITIES
 from pdeface.photo.build.heads import Head, HeadSpace
 from pdeface.photo.mirrors import ACROSS
 
-__all__ = ["MIXTURE", "Nearest", "bend"]
+__all__ = ["MIXTURE", "Nearest", "bend", "vary"]
 
 FloatArray = NDArray[np.float64]
 
@@ -29,6 +31,9 @@ _STRONGEST, _ONE_SIDED = 1.3, 0.3
 _WAVES = 24
 _NOISE, _POINTS = 0.7e-3, 100
 """What the nearest mixture is expected to be off by, metres, at so many independent points."""
+
+_VARIED, _ACROSS = 0.25, 0.04
+"""Standard deviation of how much an expression moves, and the length over which it differs."""
 
 _ASIDE = 1.2
 """How far from the midline the face reaches, in radians of v."""
@@ -46,6 +51,14 @@ def bend(rng: np.random.Generator, vertices: FloatArray) -> FloatArray:
         even, odd = one + other * ACROSS, one - other * ACROSS
         moved += (even + _ONE_SIDED * odd) / np.sqrt(2.0)
     return moved
+
+
+def vary(rng: np.random.Generator, vertices: FloatArray, displacement: FloatArray) -> FloatArray:
+    """(V, 3) an expression's displacement of vertices as one person has it."""
+    waves = rng.normal(0.0, 1.0 / _ACROSS, (_WAVES, 3))
+    phases = rng.uniform(0.0, 2.0 * np.pi, _WAVES)
+    sizes = rng.normal(0.0, _VARIED * np.sqrt(2.0 / _WAVES), (_WAVES, 3))
+    return np.asarray(displacement * (1.0 + np.cos(vertices @ waves.T + phases) @ sizes))
 
 
 class Nearest:
