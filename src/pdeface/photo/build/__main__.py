@@ -23,6 +23,7 @@ from pdeface.files import atomic_path
 from pdeface.photo.anchors import DATA
 from pdeface.photo.build import learning
 from pdeface.photo.build.measure import common_errors, places_on_face
+from pdeface.photo.build.nearness import shares_worse
 from pdeface.photo.build.renders import Rendered, people
 from pdeface.photo.build.rounds import ROUNDS, sample_rounds
 from pdeface.photo.landmarker import find_faces
@@ -74,6 +75,9 @@ def _identity(options: argparse.Namespace) -> None:
         explained = 1.0 - ((said[:, :10] - truth) ** 2).sum() / (truth**2).sum()
         print(f"{name}: {100 * explained:.0f} per cent of the variance of kept-out people's ten "
               "first weights")  # fmt: skip
+        some, near = shares_worse(said, rows.identity[:pictures])
+        print(f"{name}: the neutral face is nearer to {100 * some:.1f} per cent of them, to "
+              f"{100 * near:.1f} of the tenth that is nearest to it")  # fmt: skip
 
 
 def write(path: Path, found: FloatArray, places: FloatArray) -> None:
