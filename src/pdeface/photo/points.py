@@ -68,6 +68,9 @@ _AT_HEIGHT_OF = (
     ("mouth_extension", "mouth_corner"),
 )
 
+_DECIMALS = 4
+"""Of a pixel, that positions have: a points file holds them exactly."""
+
 _OPEN = 0.03
 """Gap between the lips, in eye distances, from which on the mouth counts as open."""
 
@@ -92,7 +95,8 @@ def feature_points(face: PhotoFace) -> FeaturePoints:
         level = {name: place @ turn for name, place in places.items()}
         places.update({n: p @ turn.T for n, p in _on_outline(side, outline, level).items()})
     limits = np.asarray(face.image_size, float)
-    inside = {name: np.clip(place, 0.0, limits).tolist() for name, place in places.items()}
+    inside = {name: np.clip(place.round(_DECIMALS), 0.0, limits).tolist()
+              for name, place in places.items()}  # fmt: skip
     points = FeaturePoints(inside, face.image_size)
     try:
         points.validate((face.image_size[1], face.image_size[0]))

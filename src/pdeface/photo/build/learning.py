@@ -156,7 +156,7 @@ def _ridge(x: FloatArray, y: FloatArray) -> FloatArray:
 def _agreement(held: FloatArray, person: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:
     """(50, 50) covariances of what is read out of one photo, and between two of one person.
 
-    Both of the people of whom there are several pictures.
+    Both of the people of whom there are several pictures, and of their mirror images.
     """
     pairs = [(i, j) for i in range(len(held)) for j in (i + 1, i + 2)
              if j < len(held) and person[i] == person[j]]  # fmt: skip
@@ -164,7 +164,8 @@ def _agreement(held: FloatArray, person: NDArray[np.int64]) -> tuple[FloatArray,
     several = held[np.union1d(one, other)]
     variance = several.T @ several / len(several)
     common = held[one].T @ held[other] / len(one)
-    return variance, 0.5 * (common + common.T)
+    both = np.outer(signs := mirror_signs(), signs)
+    return 0.5 * (1.0 + both) * variance, 0.25 * (1.0 + both) * (common + common.T)
 
 
 def write(path: Path, learnt: Learnt | Reading) -> None:

@@ -11,7 +11,7 @@ from pdeface.photo.build.samples import Numbers, sample
 
 __all__ = ["ROUNDS", "sample_rounds"]
 
-ROUNDS = 41
+ROUNDS = 53
 _PICTURES, _OFTEN, _OF_THE_SAME = 400, 3, 450
 _PAIRED, _MIXED = 2, 12
 """In the first rounds each person is seen three times, to learn what photos agree on; after them
