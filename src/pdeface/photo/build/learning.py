@@ -164,8 +164,9 @@ def _agreement(held: FloatArray, person: NDArray[np.int64]) -> tuple[FloatArray,
     several = held[np.union1d(one, other)]
     variance = several.T @ several / len(several)
     common = held[one].T @ held[other] / len(one)
-    both = np.outer(signs := mirror_signs(), signs)
-    return 0.5 * (1.0 + both) * variance, 0.25 * (1.0 + both) * (common + common.T)
+    signs = mirror_signs()
+    alike = 0.5 * (1.0 + np.outer(signs, signs))  # a mirror turns all other entries about
+    return alike * variance, alike * 0.5 * (common + common.T)
 
 
 def write(path: Path, learnt: Learnt | Reading) -> None:
