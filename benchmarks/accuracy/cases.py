@@ -129,7 +129,6 @@ def _result(
     """None where MediaPipe finds no face."""
     found: list[PhotoFace] = []
     photos = [sitting.photo(scene, canvas) for scene in scenes]
-    subject = sitting.subject
     for photo in photos:
         faces = find_faces(photo, model)
         if not faces:
@@ -139,10 +138,10 @@ def _result(
     shapes = [view.shape for view in views]
     error = float(np.sqrt(np.mean([shape.error**2 for shape in shapes])))
     most = max(map(abs, shapes[0].identity.values()))
-    fitted = Score(shapes[0].face, subject.scan)
+    fitted = Score(shapes[0].face, sitting.subject.scan)
     name = "three" if len(scenes) > 1 else f"{abs(scenes[0].yaw):.0f}"
     image = image_difference(views)
-    return Result(group, subject.name, name, fitted, *bases, error, most, image)
+    return Result(group, sitting.subject.name, name, fitted, *bases, error, most, image)
 
 
 def _focal(scene: Scene) -> float:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+pytest.importorskip("scipy", reason="needs the extra 'template'")
+
 import pdeface
 from pdeface.controls import CONTROLS
 from pdeface.photo.build.nearness import metric, shares_worse

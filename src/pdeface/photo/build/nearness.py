@@ -7,14 +7,13 @@ from numpy.typing import NDArray
 
 from pdeface.controls import CONTROLS
 from pdeface.face import neutral
+from pdeface.photo.build.straying import FACE
 
 __all__ = ["metric", "shares_worse"]
 
 FloatArray = NDArray[np.float64]
 
 _GRID = 61, 91
-_FACE = 0.93, 1.2
-"""The part of the face that counts: u up to here, and as far from the midline in v, radians."""
 
 _NEAREST = 0.1
 """Share of the people who are looked at apart: those who are nearest to the neutral face."""
@@ -26,7 +25,7 @@ def metric() -> FloatArray:
     face = neutral()
     mesh = face.mesh(*_GRID, openings="none")
     v, u = np.asarray(mesh.texcoords).T
-    some = (u < _FACE[0]) & (np.abs(np.pi * v - np.pi / 2) < _FACE[1])
+    some = (u < FACE[0]) & (np.abs(np.pi * v - np.pi / 2) < FACE[1])
     points, normals = mesh.vertices[some], mesh.normals[some]
     middle = points - points.mean(axis=0)
     names = [name for name, control in CONTROLS.items() if control.kind == "identity"]

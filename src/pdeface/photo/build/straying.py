@@ -17,7 +17,7 @@ from pdeface.controls.measured import IDENTITIES
 from pdeface.photo.build.heads import Head, HeadSpace
 from pdeface.photo.mirrors import ACROSS
 
-__all__ = ["MIXTURE", "Nearest", "bend", "vary"]
+__all__ = ["FACE", "MIXTURE", "Nearest", "bend", "vary"]
 
 FloatArray = NDArray[np.float64]
 
@@ -35,8 +35,9 @@ _NOISE, _POINTS = 0.7e-3, 100
 _VARIED, _ACROSS = 0.25, 0.04
 """Standard deviation of how much an expression moves, and the length over which it differs."""
 
-_ASIDE = 1.2
-"""How far from the midline the face reaches, in radians of v."""
+FACE = 0.93, 1.2
+"""The part of the head that counts as its face: u up to here, and as far from the midline in v,
+radians."""
 
 
 def bend(rng: np.random.Generator, vertices: FloatArray) -> FloatArray:
@@ -95,5 +96,5 @@ class Nearest:
 def _face(head: Head) -> NDArray[np.int64]:
     """The vertices of a head's face."""
     u, v = head.texcoords[:, 1], np.pi * head.texcoords[:, 0]
-    face = (u > 0.0) & (u < 0.93) & (v > 0.0) & (np.abs(v - np.pi / 2) < _ASIDE)
+    face = (u > 0.0) & (u < FACE[0]) & (v > 0.0) & (np.abs(v - np.pi / 2) < FACE[1])
     return np.intersect1d(np.flatnonzero(face), np.unique(head.skin))

@@ -14,6 +14,7 @@ from scipy.ndimage import gaussian_filter, median_filter, zoom
 from scipy.spatial import cKDTree
 
 from pdeface.photo.build.heads import Head
+from pdeface.uvmesh import UVMesh
 
 __all__ = ["Cover", "random_covers", "random_ground"]
 
@@ -183,6 +184,5 @@ def _noise(rng: np.random.Generator, shape: tuple[int, int], cells: int) -> Floa
 
 def _grid(rows: int, columns: int) -> NDArray[np.int32]:
     """Triangles of a grid, anticlockwise where rows go down and columns to the left."""
-    first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
-    a, b, c, d = first, first + 1, first + columns, first + columns + 1
-    return np.concatenate([np.stack([a, c, b], 1), np.stack([b, c, d], 1)]).astype(np.int32)
+    quads = UVMesh(rows, columns).quads
+    return np.concatenate([quads[:, [0, 1, 3]], quads[:, [3, 1, 2]]])
