@@ -50,7 +50,7 @@ async function ready(page) {
 // The first screen says what is where, each note on the page, and comes but once.
 async function toured(page) {
   const notes = page.locator("dialog.tour section");
-  const gone = () => page.locator("dialog").waitFor({ state: "detached" });
+  const gone = () => page.waitForFunction(() => !document.querySelector("dialog"));
   await notes.last().waitFor();
   const boxes = await notes.evaluateAll((all) => all.map((note) => {
     const { left, top, right, bottom } = note.getBoundingClientRect();
